@@ -1,0 +1,80 @@
+// A validated scene: what a scene file says once every key is checked, every mesh loaded and every pin found.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+#include "render/settings.h"
+#include "sim/cloth.h"
+#include "sim/mesh.h"
+
+namespace billow::cli {
+
+enum class Method { forward_euler, fb_euler, verlet, rk4, backward_euler, imex };
+
+/// Where the time step comes from: a number, the certified limit times `safety`, or the paper's criterion times
+/// `safety`.
+enum class StepRule { fixed, automatic, paper };
+
+enum class FilterKernel { exponential, gaussian };
+enum class FilterForm { plain, symmetric };
+enum class FilterTarget { velocity, force };
+
+struct FilterSpec {
+  FilterKernel kernel = FilterKernel::exponential;
+  double lambda = 1.0;  // [1 / mean rest length] > 0
+  FilterForm form = FilterForm::plain;
+  FilterTarget target = FilterTarget::velocity;
+};
+
+struct SolverSpec {
+  Method method = Method::fb_euler;
+  StepRule step_rule = StepRule::automatic;
+  double step = 0.0;    // [s] for StepRule::fixed
+  double safety = 0.9;  // in (0, 1], for the other two rules
+  std::optional<FilterSpec> filter;
+};
+
+/// One cloth of the scene, its mesh already imported and moved, its pins already found.
+struct BodySpec {
+  std::string name;
+  std::filesystem::path mesh_file;
+  sim::Mesh mesh;
+  sim::ClothOptions cloth;
+  Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
+  std::filesystem::path texture_file;                          // empty: plain colour
+  render::Image texture;
+  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};                    // linear-light RGB
+};
+
+struct StripSpec {
+  double step = 0.01;  // [s] between columns
+};
+
+struct Scene {
+  std::filesystem::path file;
+  double duration = 10.0;                        // [s] > 0
+  Eigen::Vector3d gravity{0.0, -9.81, 0.0};      // [m/s^2]
+  std::vector<BodySpec> bodies;
+  SolverSpec solver;
+  render::Settings render;
+  std::optional<StripSpec> strip;
+  std::string effective;  // the whole scene with every default written out, as YAML that reads back to this scene
+  std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
+};
+
+/// A `-D key.path=value` from the command line.
+struct Override {
+  std::string path;   // e.g. "solver.filter.lambda" or "bodies.0.cloth.mass"
+  std::string value;  // YAML
+};
+
+/// Reads and fully checks a scene file: syntax, duplicate and unknown keys, types, finiteness, ranges, meshes, textures,
+/// pins. Relative paths are relative to the scene file. Throws InputError, its text starting with
+/// "file:line:column: " (or "-D key.path: "), on the first fault.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+}  // namespace billow::cli

@@ -1,0 +1,50 @@
+// A polygon mesh in memory: what an importer delivers, welded by position.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace billow::sim {
+
+/// One polygon: three or four corners, counter-clockwise seen from outside; a triangle's last entry is -1.
+using Face = std::array<int, 4>;
+
+/// Number of corners of a face (3 or 4).
+inline int corner_count(const Face& face) { return face[3] < 0 ? 3 : 4; }
+
+/// Polygons as a file lists them: each corner may have its own copy of a position.
+struct PolygonSoup {
+  Eigen::MatrixX3d position;                      // [m] (r x 3) raw vertices, copies included
+  Eigen::MatrixX2f uv;                            //     (r x 2) or (0 x 2) where the file has none
+  Eigen::MatrixX3f colour;                        //     (r x 3) in [0, 1], or (0 x 3)
+  std::vector<Face> face;                         //     (f)     raw vertex indices
+  std::map<std::string, std::vector<int>> group;  //     group or material name -> raw vertices, ascending
+};
+
+/// A mesh whose vertices are distinct positions, with texture coordinates kept per corner.
+/// v vertices, f faces. Vertices are numbered in the file's own order.
+struct Mesh {
+  Eigen::MatrixX3d position;                      // [m] (v x 3)
+  std::vector<Face> face;                         //     (f)
+  std::vector<std::array<Eigen::Vector2f, 4>> uv; //     (f) one per corner; empty where the file has none
+  Eigen::MatrixX3f colour;                        //     (v x 3) in [0, 1], or (0 x 3)
+  std::map<std::string, std::vector<int>> group;  //     name -> vertices, ascending
+
+  int vertices() const { return static_cast<int>(position.rows()); }
+};
+
+/// Joins vertices at the same position (exactly equal once rounded to 1e-6 of the bounding box's diagonal), drops
+/// faces that collapse, and keeps texture coordinates per corner. Vertices keep the order of their first raw copy;
+/// vertices that no face uses are dropped. Throws InputError on a non-finite coordinate or a mesh with no face.
+Mesh weld(const PolygonSoup& soup);
+
+/// The mesh moved: position -> scale * R * position + translation. Shapes and order are kept.
+Mesh transformed(const Mesh& mesh, const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d& translation);
+
+/// Mean length [m] of the mesh's distinct edges.
+double mean_edge_length(const Mesh& mesh);
+
+}  // namespace billow::sim
