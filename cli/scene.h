@@ -9,33 +9,23 @@
 #include "render/image.h"
 #include "render/settings.h"
 #include "sim/cloth.h"
+#include "sim/filter.h"
+#include "sim/integrator.h"
 #include "sim/mesh.h"
 
 namespace billow::cli {
-
-enum class Method { forward_euler, fb_euler, verlet, rk4, backward_euler, imex };
 
 /// Where the time step comes from: a number, the certified limit times `safety`, or the paper's criterion times
 /// `safety`.
 enum class StepRule { fixed, automatic, paper };
 
-enum class FilterKernel { exponential, gaussian };
-enum class FilterForm { plain, symmetric };
-enum class FilterTarget { velocity, force };
-
-struct FilterSpec {
-  FilterKernel kernel = FilterKernel::exponential;
-  double lambda = 1.0;  // [1 / mean rest length] > 0
-  FilterForm form = FilterForm::plain;
-  FilterTarget target = FilterTarget::velocity;
-};
-
 struct SolverSpec {
-  Method method = Method::fb_euler;
+  sim::Method method = sim::Method::fb_euler;
+  sim::IntegratorOptions integrator;
   StepRule step_rule = StepRule::automatic;
   double step = 0.0;    // [s] for StepRule::fixed
   double safety = 0.9;  // in (0, 1], for the other two rules
-  std::optional<FilterSpec> filter;
+  std::optional<sim::FilterOptions> filter;
 };
 
 /// One cloth of the scene, its mesh already imported and moved, its pins already found.

@@ -1,0 +1,70 @@
+// The low-pass filter of the paper: one linear operator on particle vectors, applied once per step.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/structure.h"
+
+namespace billow::sim {
+
+enum class FilterKernel { exponential, gaussian };
+enum class FilterForm { plain, symmetric, conserving };
+enum class FilterTarget { velocity, force };
+enum class FilterNeighbours { springs, radius };
+enum class FilterDistances { rest, current };
+
+struct FilterOptions {
+  FilterKernel kernel = FilterKernel::exponential;  // beta(d) = lambda e^(-lambda |d|), or lambda e^(-(lambda d)^2 / 2)
+  double lambda = 1.0;                              // [1 / mean rest length] > 0; smaller filters more
+  FilterForm form = FilterForm::plain;
+  FilterTarget target = FilterTarget::velocity;
+  FilterNeighbours neighbours = FilterNeighbours::springs;
+  double radius = 2.0;                              // [mean rest length] for FilterNeighbours::radius
+  FilterDistances distances = FilterDistances::rest;
+  int passes = 1;                                   // times the operator is applied per step, >= 1
+  Eigen::VectorXd lambda_scale;                     // (n) factor on lambda per particle; empty: 1 everywhere
+  std::vector<std::pair<double, double>> lambda_keys;  // (time [s], factor on lambda), ascending; empty: 1 always
+};
+
+/// F of the paper's section 4.1 with weights normalised to 1 (method.md section 3). A pinned particle keeps its value
+/// but counts as a neighbour. Bodies never mix: neighbours are found within a body.
+class Filter {
+ public:
+  /// Throws InputError on an option out of its range.
+  Filter(const Structure& structure, FilterOptions options);
+
+  /// field <- F field, `passes` times. field (n x 3); position (n x 3) [m] is used by `current` distances and the
+  /// conserving form; time [s] by lambda_keys.
+  void apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const;
+
+  const FilterOptions& options() const { return options_; }
+  /// The row-normalised weights B in force at `position` and `time`, (n x n), for tests and analysis.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> weights(const Eigen::MatrixX3d& position, double time) const;
+
+ private:
+  struct Pattern {               // compressed rows: particle i's neighbours are column[first[i]] ... column[first[i+1]-1]
+    std::vector<int> first, column;
+    Eigen::VectorXd distance;    // rest distance of each entry, in mean rest lengths
+  };
+  struct Weights {
+    Eigen::VectorXd self;        // (n)
+    Eigen::VectorXd neighbour;   // one per Pattern entry
+  };
+
+  Weights compute_weights(const Eigen::MatrixX3d* position, double time) const;
+  void symmetrise_with_masses(Weights& weights) const;
+  void apply_once(const Weights& weights, Eigen::MatrixX3d& field) const;
+  bool constant_weights() const;
+
+  const Structure& structure_;
+  FilterOptions options_;
+  Eigen::VectorXd unit_;         // (n) [m] the body's mean rest length
+  Pattern pattern_;
+  Weights rest_weights_;
+};
+
+}  // namespace billow::sim

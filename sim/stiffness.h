@@ -1,0 +1,40 @@
+// The linearised springs as small blocks: K x without a matrix, and the matrix when one is wanted.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "sim/structure.h"
+
+namespace billow::sim {
+
+/// `exact` is the true Jacobian. `definite` drops the transverse part of compressed springs, which would make the
+/// matrix indefinite: what the implicit schemes and the certificate use (Choi & Ko 2002, section 4.3).
+enum class JacobianForm { exact, definite };
+
+/// A symmetric 3n x 3n matrix: a diagonal plus, for each spring i-j with unit vector u, the block
+/// B = a I + b u u^T at (i,i) and (j,j) and -B at (i,j) and (j,i).
+class StiffnessMatrix {
+ public:
+  explicit StiffnessMatrix(const Structure& structure);
+
+  void add_diagonal(int particle, double value) { diagonal_(particle) += value; }
+  void add_block(int spring, const Eigen::Vector3d& direction, double isotropic, double along);
+
+  /// out (n x 3) = A x, pinned particles included as ordinary rows.
+  void multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& out) const;
+  /// The 3 x 3 blocks of the diagonal, one particle after another, each stacked row by row (3n x 3).
+  Eigen::MatrixX3d diagonal_blocks() const;
+  /// The same matrix assembled, particle-major (row 3 i + axis); the pattern is the same for every state. Rows and
+  /// columns of pinned particles are replaced by the identity when `eliminate_pins`.
+  Eigen::SparseMatrix<double> assemble(bool eliminate_pins) const;
+
+ private:
+  const Structure& structure_;
+  Eigen::VectorXd diagonal_;      // (n)
+  Eigen::MatrixX3d direction_;    // (m x 3)
+  Eigen::VectorXd isotropic_;     // (m) a
+  Eigen::VectorXd along_;         // (m) b
+};
+
+}  // namespace billow::sim
