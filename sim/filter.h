@@ -23,10 +23,10 @@ struct FilterOptions {
   FilterForm form = FilterForm::plain;
   FilterTarget target = FilterTarget::velocity;
   FilterNeighbours neighbours = FilterNeighbours::springs;
-  double radius = 2.0;                              // [mean rest length] for FilterNeighbours::radius
+  double radius = 2.0;  // [mean rest length] for FilterNeighbours::radius
   FilterDistances distances = FilterDistances::rest;
-  int passes = 1;                                   // times the operator is applied per step, >= 1
-  Eigen::VectorXd lambda_scale;                     // (n) factor on lambda per particle; empty: 1 everywhere
+  int passes = 1;                                      // times the operator is applied per step, >= 1
+  Eigen::VectorXd lambda_scale;                        // (n) factor on lambda per particle; empty: 1 everywhere
   std::vector<std::pair<double, double>> lambda_keys;  // (time [s], factor on lambda), ascending; empty: 1 always
 };
 
@@ -46,13 +46,13 @@ class Filter {
   Eigen::SparseMatrix<double, Eigen::RowMajor> weights(const Eigen::MatrixX3d& position, double time) const;
 
  private:
-  struct Pattern {               // compressed rows: particle i's neighbours are column[first[i]] ... column[first[i+1]-1]
+  struct Pattern {  // compressed rows: particle i's neighbours are column[first[i]] ... column[first[i+1]-1]
     std::vector<int> first, column;
-    Eigen::VectorXd distance;    // rest distance of each entry, in mean rest lengths
+    Eigen::VectorXd distance;  // rest distance of each entry, in mean rest lengths
   };
   struct Weights {
-    Eigen::VectorXd self;        // (n)
-    Eigen::VectorXd neighbour;   // one per Pattern entry
+    Eigen::VectorXd self;       // (n)
+    Eigen::VectorXd neighbour;  // one per Pattern entry
   };
 
   Weights compute_weights(const Eigen::MatrixX3d* position, double time) const;
@@ -62,7 +62,7 @@ class Filter {
 
   const Structure& structure_;
   FilterOptions options_;
-  Eigen::VectorXd unit_;         // (n) [m] the body's mean rest length
+  Eigen::VectorXd unit_;  // (n) [m] the body's mean rest length
   Pattern pattern_;
   Weights rest_weights_;
 };

@@ -21,6 +21,9 @@ class StiffnessMatrix {
   void add_diagonal(int particle, double value) { diagonal_(particle) += value; }
   void add_block(int spring, const Eigen::Vector3d& direction, double isotropic, double along);
 
+  /// this += weight other, both linearised at the same state.
+  void add_scaled(const StiffnessMatrix& other, double weight);
+
   /// out (n x 3) = A x, pinned particles included as ordinary rows.
   void multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& out) const;
   /// The 3 x 3 blocks of the diagonal, one particle after another, each stacked row by row (3n x 3).
@@ -28,13 +31,24 @@ class StiffnessMatrix {
   /// The same matrix assembled, particle-major (row 3 i + axis); the pattern is the same for every state. Rows and
   /// columns of pinned particles are replaced by the identity when `eliminate_pins`.
   Eigen::SparseMatrix<double> assemble(bool eliminate_pins) const;
+  /// As assemble, of the isotropic parts alone: the (n x n) matrix that acts on every axis alike.
+  Eigen::SparseMatrix<double> assemble_one_axis(bool eliminate_pins) const;
 
  private:
   const Structure& structure_;
-  Eigen::VectorXd diagonal_;      // (n)
-  Eigen::MatrixX3d direction_;    // (m x 3)
-  Eigen::VectorXd isotropic_;     // (m) a
-  Eigen::VectorXd along_;         // (m) b
+  Eigen::VectorXd diagonal_;    // (n)
+  Eigen::MatrixX3d direction_;  // (m x 3)
+  Eigen::VectorXd isotropic_;   // (m) a
+  Eigen::VectorXd along_;       // (m) b
 };
+
+/// K and C of a structure about one state: force = -K dx - C dv.
+struct Linearisation {
+  StiffnessMatrix stiffness, damping;
+};
+
+/// About rest, every spring with its full stiffness along itself, whichever way its model would let it go slack:
+/// the stiffest that the structure can be at its rest shape.
+Linearisation linearise_at_rest(const Structure& structure);
 
 }  // namespace billow::sim

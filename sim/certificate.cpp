@@ -1,0 +1,132 @@
+// Trials of the linearised step, and the search over its size.
+#include "sim/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/filtered_step.h"
+#include "sim/power_method.h"
+#include "sim/random.h"
+
+namespace billow::sim {
+
+namespace {
+
+/// f = -K x - C v, where the state's positions are displacements.
+class LinearForce : public ForceTerm {
+ public:
+  explicit LinearForce(const Structure& structure, const Linearisation& linearisation)
+      : linearisation_(linearisation), damped_(structure.damping.maxCoeff() > 0.0) {
+    for (const Body& body : structure.body) damped_ = damped_ || body.friction > 0.0;
+  }
+  void add_force(const State& state, Eigen::MatrixX3d& force) const override {
+    linearisation_.stiffness.multiply(state.position, product_);
+    force -= product_;
+    if (!damped_) return;
+    linearisation_.damping.multiply(state.velocity, product_);
+    force -= product_;
+  }
+  void add_linearisation(const State&, double position_weight, double velocity_weight, JacobianForm,
+                         StiffnessMatrix& matrix) const override {
+    matrix.add_scaled(linearisation_.stiffness, position_weight);
+    matrix.add_scaled(linearisation_.damping, velocity_weight);
+  }
+
+ private:
+  const Linearisation& linearisation_;
+  bool damped_;
+  mutable Eigen::MatrixX3d product_;
+};
+
+/// Runs the linearised step and says whether it grows.
+class Trial {
+ public:
+  Trial(const Structure& structure, const Linearisation& linearisation, const Eigen::MatrixX3d& position, Method method,
+        const IntegratorOptions& options, const Filter* filter, const CertificateOptions& certificate)
+      : structure_(structure), certificate_(certificate), forces_(structure, terms(structure, linearisation)) {
+    // The linear solves must be exact for the step to be a linear operator.
+    IntegratorOptions exact = options;
+    exact.tolerance = 1e-10;
+    step_.emplace(structure, forces_, method, exact, filter, &position);
+    Eigen::MatrixX3d mode;
+    const double k0 = max_eigenvalue(structure, linearisation.stiffness, {.tolerance = 1e-8}, &mode).value;
+    omega_ = std::sqrt(std::max(k0, 0.0));
+    noise_ = structure.inverse_mass.cwiseSign().asDiagonal() * seeded_noise(structure.particles(), certificate.seed);
+    noise_ /= std::max(noise_.norm(), 1e-300);
+    start_ = {mode / std::max(mode.norm(), 1e-300) + noise_, Eigen::MatrixX3d::Zero(mode.rows(), 3), 0.0};
+  }
+
+  /// sqrt(k0) [1/s]
+  double omega() const { return omega_; }
+
+  bool stable(double h) {
+    State state = start_;
+    const double begin = norm(state);
+    double half = begin, now = begin;
+    for (int k = 1; k <= certificate_.steps; ++k) {
+      (*step_)(state, h);
+      if (k % 16 != 0 && k != certificate_.steps && k != certificate_.steps / 2) continue;
+      now = norm(state);
+      if (!(now < 1e9 * begin)) return remember_growth(state, now), false;
+      if (k <= certificate_.steps / 2) half = now;
+    }
+    const bool grows = std::log(now / half) > 0.5 * certificate_.steps * std::log1p(certificate_.growth_tolerance) &&
+                       now > 1e-6 * begin;
+    if (grows) remember_growth(state, now);
+    return !grows;
+  }
+
+ private:
+  static std::vector<std::unique_ptr<ForceTerm>> terms(const Structure& structure, const Linearisation& linearisation) {
+    std::vector<std::unique_ptr<ForceTerm>> list;
+    list.push_back(std::make_unique<LinearForce>(structure, linearisation));
+    return list;
+  }
+
+  // Displacements and velocities on one scale: v / omega is a length.
+  double norm(const State& state) const {
+    return std::sqrt(state.position.squaredNorm() + state.velocity.squaredNorm() / (omega_ * omega_));
+  }
+
+  // What grew at one step is the best place to look for growth at a smaller one.
+  void remember_growth(const State& state, double size) {
+    if (!std::isfinite(size) || size == 0.0) return;
+    start_.position = state.position / size + 0.1 * noise_;
+    start_.velocity = state.velocity / size;
+  }
+
+  const Structure& structure_;
+  CertificateOptions certificate_;
+  Forces forces_;
+  std::optional<FilteredStep> step_;
+  double omega_ = 0.0;
+  Eigen::MatrixX3d noise_;
+  State start_;
+};
+
+}  // namespace
+
+CertifiedStep certified_step(const Structure& structure, const Linearisation& linearisation,
+                             const Eigen::MatrixX3d& position, Method method, const IntegratorOptions& options,
+                             const Filter* filter, const CertificateOptions& certificate) {
+  Trial trial(structure, linearisation, position, method, options, filter, certificate);
+  CertifiedStep result;
+  if (trial.omega() == 0.0) return {0.0, true, 0};
+  const double unit = 2.0 / trial.omega();
+  const auto stable = [&](double h) { return ++result.trials, trial.stable(h); };
+  double low = 0.0, high = 0.05 * unit;
+  while (stable(high)) {
+    low = high;
+    high *= low < 0.8 * unit ? 2.0 : 1.3;
+    if (high > 30.0 * unit) return {low, true, result.trials};
+  }
+  if (low == 0.0) return {0.0, false, result.trials};
+  while (high - low > certificate.step_tolerance * high) {
+    const double middle = 0.5 * (low + high);
+    (stable(middle) ? low : high) = middle;
+  }
+  result.step = low;
+  return result;
+}
+
+}  // namespace billow::sim

@@ -1,0 +1,247 @@
+// Weights and application of the low-pass filter.
+#include "sim/filter.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim/error.h"
+
+namespace billow::sim {
+
+namespace {
+
+using Pair = std::pair<int, int>;
+
+// Both directions of every spring.
+std::vector<Pair> spring_neighbours(const Structure& structure) {
+  std::vector<Pair> pairs;
+  pairs.reserve(2 * structure.springs());
+  for (int s = 0; s < structure.springs(); ++s) {
+    pairs.emplace_back(structure.spring(s, 0), structure.spring(s, 1));
+    pairs.emplace_back(structure.spring(s, 1), structure.spring(s, 0));
+  }
+  return pairs;
+}
+
+// All pairs of one body closer than `radius` [m] at rest: a sweep along x.
+void append_pairs_within(const Structure& structure, const Body& body, double radius, std::vector<Pair>& pairs) {
+  std::vector<int> order(body.particles);
+  std::iota(order.begin(), order.end(), body.first_particle);
+  const auto x = [&](int i) { return structure.rest_position(i, 0); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(x(a), a) < std::pair(x(b), b); });
+  for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t b = a + 1; b < order.size() && x(order[b]) - x(order[a]) <= radius; ++b) {
+      const int i = order[a], j = order[b];
+      if ((structure.rest_position.row(i) - structure.rest_position.row(j)).norm() > radius) continue;
+      pairs.emplace_back(i, j);
+      pairs.emplace_back(j, i);
+    }
+}
+
+std::vector<Pair> neighbour_pairs(const Structure& structure, const FilterOptions& options) {
+  std::vector<Pair> pairs;
+  if (options.neighbours == FilterNeighbours::springs)
+    pairs = spring_neighbours(structure);
+  else
+    for (const Body& body : structure.body)
+      append_pairs_within(structure, body, options.radius * body.mean_rest_length, pairs);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+Eigen::VectorXd distance_unit(const Structure& structure) {
+  Eigen::VectorXd unit(structure.particles());
+  for (const Body& body : structure.body)
+    unit.segment(body.first_particle, body.particles).setConstant(body.mean_rest_length);
+  return unit;
+}
+
+void require(bool holds, const char* message) {
+  if (!holds) throw InputError(message);
+}
+
+void check(const Structure& structure, const FilterOptions& o) {
+  require(o.lambda > 0.0 && std::isfinite(o.lambda), "the filter's lambda must be a positive number");
+  require(o.passes >= 1, "the filter needs at least one pass");
+  require(o.radius > 0.0, "the filter's radius must be positive");
+  require(o.lambda_scale.size() == 0 || o.lambda_scale.size() == structure.particles(),
+          "the filter's lambda_scale needs one value per particle");
+  require(o.lambda_scale.size() == 0 || o.lambda_scale.minCoeff() > 0.0, "lambda must be positive at every particle");
+  for (const auto& [time, factor] : o.lambda_keys) require(factor > 0.0, "lambda must be positive at every time");
+}
+
+// Linear between keys, constant outside them.
+double key_factor(const std::vector<std::pair<double, double>>& keys, double time) {
+  if (keys.empty()) return 1.0;
+  if (time <= keys.front().first) return keys.front().second;
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    if (time < keys[k].first) {
+      const double t = (time - keys[k - 1].first) / (keys[k].first - keys[k - 1].first);
+      return keys[k - 1].second + t * (keys[k].second - keys[k - 1].second);
+    }
+  return keys.back().second;
+}
+
+// beta(d) / beta(0): the common factor lambda cancels when the weights are normalised.
+double kernel(FilterKernel kind, double lambda, double distance) {
+  const double t = lambda * distance;
+  return kind == FilterKernel::exponential ? std::exp(-t) : std::exp(-0.5 * t * t);
+}
+
+bool is_free(const Structure& structure, const Body& body) {
+  return (structure.inverse_mass.segment(body.first_particle, body.particles).array() > 0.0).all();
+}
+
+/// Linear and angular momentum of one body about its centre of mass, and its inertia there.
+struct BodyMotion {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  double mass = 0.0;
+};
+
+BodyMotion body_motion(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
+                       const Eigen::MatrixX3d& field) {
+  BodyMotion motion;
+  const int begin = body.first_particle, end = begin + body.particles;
+  for (int i = begin; i < end; ++i) {
+    motion.mass += structure.mass(i);
+    motion.centre += structure.mass(i) * position.row(i).transpose();
+    motion.linear += structure.mass(i) * field.row(i).transpose();
+  }
+  motion.centre /= motion.mass;
+  for (int i = begin; i < end; ++i) {
+    const Eigen::Vector3d r = position.row(i).transpose() - motion.centre, v = field.row(i);
+    motion.angular += structure.mass(i) * r.cross(v);
+    motion.inertia += structure.mass(i) * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  return motion;
+}
+
+// Adds the rigid motion V + omega x r that brings the body's momenta back to `before`. A body on a line has no inertia
+// about it; the pseudo-inverse leaves that axis alone.
+void restore_momenta(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
+                     const BodyMotion& before, Eigen::MatrixX3d& field) {
+  const BodyMotion after = body_motion(structure, body, position, field);
+  const Eigen::Vector3d shift = (before.linear - after.linear) / after.mass;
+  const Eigen::Vector3d spin =
+      after.inertia.completeOrthogonalDecomposition().solve(Eigen::Vector3d(before.angular - after.angular));
+  for (int i = body.first_particle; i < body.first_particle + body.particles; ++i) {
+    const Eigen::Vector3d r = position.row(i).transpose() - after.centre;
+    field.row(i) += (shift + spin.cross(r)).transpose();
+  }
+}
+
+}  // namespace
+
+Filter::Filter(const Structure& structure, FilterOptions options)
+    : structure_(structure), options_(std::move(options)), unit_(distance_unit(structure)) {
+  check(structure, options_);
+  const std::vector<Pair> pairs = neighbour_pairs(structure, options_);
+  pattern_.first.assign(structure.particles() + 1, 0);
+  for (const auto& [i, j] : pairs) ++pattern_.first[i + 1], pattern_.column.push_back(j);
+  std::partial_sum(pattern_.first.begin(), pattern_.first.end(), pattern_.first.begin());
+  pattern_.distance.resize(pairs.size());
+  for (std::size_t e = 0; e < pairs.size(); ++e) {
+    const auto [i, j] = pairs[e];
+    pattern_.distance(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
+  }
+  if (constant_weights()) rest_weights_ = compute_weights(nullptr, 0.0);
+}
+
+bool Filter::constant_weights() const {
+  return options_.distances == FilterDistances::rest && options_.lambda_keys.empty();
+}
+
+Filter::Weights Filter::compute_weights(const Eigen::MatrixX3d* position, double time) const {
+  const double lambda = options_.lambda * key_factor(options_.lambda_keys, time);
+  Weights weights{Eigen::VectorXd(structure_.particles()), Eigen::VectorXd(pattern_.distance.size())};
+  for (int i = 0; i < structure_.particles(); ++i) {
+    const double scale = options_.lambda_scale.size() ? options_.lambda_scale(i) : 1.0;
+    double sum = 1.0;  // the particle itself, at distance 0
+    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) {
+      const double distance =
+          position ? (position->row(i) - position->row(pattern_.column[e])).norm() / unit_(i) : pattern_.distance(e);
+      sum += weights.neighbour(e) = kernel(options_.kernel, lambda * scale, distance);
+    }
+    // symmetric: sum_j beta_j (v_j + v_i) / 2 = (I + B) / 2
+    const double half = options_.form == FilterForm::symmetric ? 0.5 : 1.0;
+    const double factor = structure_.pinned(i) ? 0.0 : half / sum;
+    double neighbours = 0.0;
+    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) neighbours += weights.neighbour(e) *= factor;
+    weights.self(i) = 1.0 - neighbours;
+  }
+  if (options_.form == FilterForm::conserving) symmetrise_with_masses(weights);
+  return weights;
+}
+
+// Row i gives m_i b_ij of its momentum to j and takes m_j b_ji. With the smaller of the two both ways nothing is lost,
+// and no row's weights grow past 1.
+void Filter::symmetrise_with_masses(Weights& weights) const {
+  Weights result = weights;
+  for (int i = 0; i < structure_.particles(); ++i) {
+    if (structure_.pinned(i)) continue;
+    double neighbours = 0.0;
+    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) {
+      const int j = pattern_.column[e];
+      const auto row = pattern_.column.begin() + pattern_.first[j],
+                 row_end = pattern_.column.begin() + pattern_.first[j + 1];
+      const auto back = std::lower_bound(row, row_end, i) - pattern_.column.begin();
+      const double forth = structure_.mass(i) * weights.neighbour(e);
+      const double exchange =
+          structure_.pinned(j) ? forth : std::min(forth, structure_.mass(j) * weights.neighbour(back));
+      neighbours += result.neighbour(e) = exchange / structure_.mass(i);
+    }
+    result.self(i) = 1.0 - neighbours;
+  }
+  weights = std::move(result);
+}
+
+void Filter::apply_once(const Weights& weights, Eigen::MatrixX3d& field) const {
+  const Eigen::MatrixX3d in = field;
+  const double *x = in.col(0).data(), *y = in.col(1).data(), *z = in.col(2).data();
+  for (int i = 0; i < structure_.particles(); ++i) {
+    const double self = weights.self(i);
+    double sx = self * x[i], sy = self * y[i], sz = self * z[i];
+    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) {
+      const double w = weights.neighbour(e);
+      const int j = pattern_.column[e];
+      sx += w * x[j], sy += w * y[j], sz += w * z[j];
+    }
+    field(i, 0) = sx, field(i, 1) = sy, field(i, 2) = sz;
+  }
+}
+
+void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const {
+  const bool conserving = options_.form == FilterForm::conserving;
+  std::vector<BodyMotion> before;
+  if (conserving)
+    for (const Body& body : structure_.body) before.push_back(body_motion(structure_, body, position, field));
+
+  const bool current = options_.distances == FilterDistances::current;
+  const Weights fresh = constant_weights() ? Weights{} : compute_weights(current ? &position : nullptr, time);
+  const Weights& weights = constant_weights() ? rest_weights_ : fresh;
+  for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field);
+
+  for (std::size_t b = 0; b < before.size(); ++b)
+    if (is_free(structure_, structure_.body[b]))
+      restore_momenta(structure_, structure_.body[b], position, before[b], field);
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> Filter::weights(const Eigen::MatrixX3d& position, double time) const {
+  const bool current = options_.distances == FilterDistances::current;
+  const Weights weights = compute_weights(current ? &position : nullptr, time);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < structure_.particles(); ++i) {
+    entries.emplace_back(i, i, weights.self(i));
+    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e)
+      entries.emplace_back(i, pattern_.column[e], weights.neighbour(e));
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(structure_.particles(), structure_.particles());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace billow::sim

@@ -1,0 +1,57 @@
+// Where the filter meets the scheme.
+#include "sim/filtered_step.h"
+
+#include "sim/error.h"
+
+namespace billow::sim {
+
+namespace {
+
+/// Another Forces with its accelerations filtered. A constant field passes unchanged, so gravity does too.
+class FilteredForces : public Forces {
+ public:
+  FilteredForces(const Forces& inner, const Filter& filter, const Eigen::MatrixX3d* frozen_position)
+      : Forces(inner.structure(), std::vector<std::unique_ptr<ForceTerm>>{}),
+        inner_(inner),
+        filter_(filter),
+        frozen_position_(frozen_position) {}
+
+  void evaluate(const State& state, Eigen::MatrixX3d& force) const override { inner_.evaluate(state, force); }
+  void acceleration(const State& state, Eigen::MatrixX3d& acceleration) const override {
+    inner_.acceleration(state, acceleration);
+    filter_.apply(frozen_position_ ? *frozen_position_ : state.position, state.time, acceleration);
+  }
+
+ private:
+  const Forces& inner_;
+  const Filter& filter_;
+  const Eigen::MatrixX3d* frozen_position_;
+};
+
+}  // namespace
+
+FilteredStep::FilteredStep(const Structure& structure, const Forces& forces, Method method,
+                           const IntegratorOptions& options, const Filter* filter,
+                           const Eigen::MatrixX3d* frozen_position)
+    : structure_(structure), forces_(forces), integrator_(make_integrator(method, options)) {
+  if (!filter) return;
+  if (filter->options().target == FilterTarget::velocity) {
+    hook_ = [this, filter, frozen_position](const Eigen::MatrixX3d& position, Eigen::MatrixX3d& velocity) {
+      filter->apply(frozen_position ? *frozen_position : position, time_, velocity);
+    };
+  } else if (is_explicit(method)) {
+    filtered_forces_ = std::make_unique<FilteredForces>(forces, *filter, frozen_position);
+  } else {
+    throw InputError("a force filter needs an explicit method; use 'target: velocity', or no filter, with " +
+                     std::string(name(method)));
+  }
+}
+
+FilteredStep::~FilteredStep() = default;
+
+void FilteredStep::operator()(State& state, double h) {
+  time_ = state.time;
+  integrator_->step(structure_, filtered_forces_ ? *filtered_forces_ : forces_, state, h, hook_);
+}
+
+}  // namespace billow::sim

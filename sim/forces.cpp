@@ -1,0 +1,101 @@
+// The sum of the laws of force, and the simple ones: gravity and fluid friction.
+#include "sim/forces.h"
+
+#include <Eigen/Geometry>
+
+#include "sim/spring_force.h"
+
+namespace billow::sim {
+
+namespace {
+
+/// f = m g, energy -m g . x.
+class Gravity : public ForceTerm {
+ public:
+  Gravity(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure), gravity_(gravity) {}
+  void add_force(const State&, Eigen::MatrixX3d& force) const override {
+    for (int axis = 0; axis < 3; ++axis) force.col(axis) += gravity_(axis) * structure_.mass;
+  }
+  double energy(const State& state) const override { return -structure_.mass.dot(state.position * gravity_); }
+
+ private:
+  const Structure& structure_;
+  Eigen::Vector3d gravity_;
+};
+
+/// f = -c v per particle, c by body.
+class FluidFriction : public ForceTerm {
+ public:
+  explicit FluidFriction(const Structure& structure) : structure_(structure) {}
+  void add_force(const State& state, Eigen::MatrixX3d& force) const override {
+    for (const Body& body : structure_.body) {
+      if (body.friction == 0.0) continue;
+      force.middleRows(body.first_particle, body.particles) -=
+          body.friction * state.velocity.middleRows(body.first_particle, body.particles);
+    }
+  }
+  void add_linearisation(const State&, double, double velocity_weight, JacobianForm,
+                         StiffnessMatrix& matrix) const override {
+    for (const Body& body : structure_.body)
+      for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
+        matrix.add_diagonal(i, velocity_weight * body.friction);
+  }
+
+ private:
+  const Structure& structure_;
+};
+
+}  // namespace
+
+Forces::Forces(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure) {
+  add(std::make_unique<SpringForce>(structure));
+  add(std::make_unique<FluidFriction>(structure));
+  add(std::make_unique<Gravity>(structure, gravity));
+}
+
+Forces::Forces(const Structure& structure, std::vector<std::unique_ptr<ForceTerm>> terms)
+    : structure_(structure), terms_(std::move(terms)) {}
+
+void Forces::evaluate(const State& state, Eigen::MatrixX3d& force) const {
+  force.setZero(structure_.particles(), 3);
+  for (const auto& term : terms_) term->add_force(state, force);
+}
+
+void Forces::acceleration(const State& state, Eigen::MatrixX3d& acceleration) const {
+  evaluate(state, acceleration);
+  for (int axis = 0; axis < 3; ++axis) acceleration.col(axis).array() *= structure_.inverse_mass.array();
+}
+
+double Forces::potential_energy(const State& state) const {
+  double sum = 0.0;
+  for (const auto& term : terms_) sum += term->energy(state);
+  return sum;
+}
+
+StiffnessMatrix Forces::linearise(const State& state, double position_weight, double velocity_weight,
+                                  JacobianForm form) const {
+  StiffnessMatrix matrix(structure_);
+  for (const auto& term : terms_) term->add_linearisation(state, position_weight, velocity_weight, form, matrix);
+  return matrix;
+}
+
+double kinetic_energy(const Structure& structure, const State& state) {
+  double sum = 0.0;
+  for (int i = 0; i < structure.particles(); ++i) sum += 0.5 * structure.mass(i) * state.velocity.row(i).squaredNorm();
+  return sum;
+}
+
+Eigen::Vector3d linear_momentum(const Structure& structure, const State& state) {
+  return state.velocity.transpose() * structure.mass;
+}
+
+Eigen::Vector3d angular_momentum(const Structure& structure, const State& state) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < structure.particles(); ++i) {
+    const Eigen::Vector3d x = state.position.row(i), v = state.velocity.row(i);
+    sum += structure.mass(i) * x.cross(v);
+  }
+  return sum;
+}
+
+}  // namespace billow::sim

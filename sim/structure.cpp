@@ -1,0 +1,55 @@
+// Names of the structure's enumerations, and several structures as one.
+#include "sim/structure.h"
+
+#include <array>
+
+namespace billow::sim {
+
+std::string_view name(SpringKind kind) {
+  constexpr std::array<std::string_view, 7> names = {"structural", "shear",  "bend",    "cross",
+                                                     "normal",     "muscle", "interior"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+namespace {
+
+Body shifted(Body body, int particles, int springs) {
+  body.first_particle += particles;
+  body.first_spring += springs;
+  return body;
+}
+
+void append(Structure& whole, const Structure& part, int particles, int springs) {
+  whole.rest_position.middleRows(particles, part.particles()) = part.rest_position;
+  whole.mass.segment(particles, part.particles()) = part.mass;
+  whole.inverse_mass.segment(particles, part.particles()) = part.inverse_mass;
+  whole.spring.middleRows(springs, part.springs()) = part.spring.array() + particles;
+  whole.rest_length.segment(springs, part.springs()) = part.rest_length;
+  whole.stiffness.segment(springs, part.springs()) = part.stiffness;
+  whole.damping.segment(springs, part.springs()) = part.damping;
+  whole.kind.insert(whole.kind.end(), part.kind.begin(), part.kind.end());
+  for (const Body& body : part.body) whole.body.push_back(shifted(body, particles, springs));
+}
+
+}  // namespace
+
+Structure merge(const std::vector<Structure>& parts) {
+  int particles = 0, springs = 0;
+  for (const Structure& part : parts) particles += part.particles(), springs += part.springs();
+  Structure whole;
+  whole.rest_position.resize(particles, 3);
+  whole.mass.resize(particles);
+  whole.inverse_mass.resize(particles);
+  whole.spring.resize(springs, 2);
+  whole.rest_length.resize(springs);
+  whole.stiffness.resize(springs);
+  whole.damping.resize(springs);
+  particles = springs = 0;
+  for (const Structure& part : parts) {
+    append(whole, part, particles, springs);
+    particles += part.particles(), springs += part.springs();
+  }
+  return whole;
+}
+
+}  // namespace billow::sim
