@@ -27,18 +27,19 @@ struct PolygonSoup {
 /// A mesh whose vertices are distinct positions, with texture coordinates kept per corner.
 /// v vertices, f faces. Vertices are numbered in the file's own order.
 struct Mesh {
-  Eigen::MatrixX3d position;                      // [m] (v x 3)
-  std::vector<Face> face;                         //     (f)
-  std::vector<std::array<Eigen::Vector2f, 4>> uv; //     (f) one per corner; empty where the file has none
-  Eigen::MatrixX3f colour;                        //     (v x 3) in [0, 1], or (0 x 3)
-  std::map<std::string, std::vector<int>> group;  //     name -> vertices, ascending
+  Eigen::MatrixX3d position;                       // [m] (v x 3)
+  std::vector<Face> face;                          //     (f)
+  std::vector<std::array<Eigen::Vector2f, 4>> uv;  //     (f) one per corner; empty where the file has none
+  Eigen::MatrixX3f colour;                         //     (v x 3) in [0, 1], or (0 x 3)
+  std::map<std::string, std::vector<int>> group;   //     name -> vertices, ascending
 
   int vertices() const { return static_cast<int>(position.rows()); }
 };
 
-/// Joins vertices at the same position (exactly equal once rounded to 1e-6 of the bounding box's diagonal), drops
-/// faces that collapse, and keeps texture coordinates per corner. Vertices keep the order of their first raw copy;
-/// vertices that no face uses are dropped. Throws InputError on a non-finite coordinate or a mesh with no face.
+/// Joins vertices at the same position (each raw vertex to the nearest earlier one within 1e-6 of the bounding box's
+/// diagonal), drops faces that collapse (a quad may become a triangle), and keeps texture coordinates per corner.
+/// Vertices keep the order of their first raw copy; vertices that no face uses are dropped. Throws InputError on a
+/// non-finite coordinate or a mesh with no face.
 Mesh weld(const PolygonSoup& soup);
 
 /// The mesh moved: position -> scale * R * position + translation. Shapes and order are kept.
