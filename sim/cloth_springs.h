@@ -1,0 +1,23 @@
+// Which pairs of a mesh's vertices a cloth's springs join.
+#pragma once
+
+#include <vector>
+
+#include "sim/mesh.h"
+#include "sim/structure.h"
+
+namespace billow::sim {
+
+/// One spring of a cloth, first < second.
+struct SpringPair {
+  SpringKind kind;
+  int first, second;
+};
+
+/// Structural springs on edges; shear springs on both diagonals of a quad and across the edge of two triangles; bend
+/// springs straight across a vertex, two rings apart. No pair twice: structural goes before shear, shear before bend.
+/// Ascending by (kind, first, second). A regular W x H grid of quads gets W(H-1) + H(W-1), 2(W-1)(H-1) and
+/// (W-2)H + W(H-2) of them. Throws InputError where more than 1024 edges meet in a vertex.
+std::vector<SpringPair> cloth_springs(const Mesh& mesh);
+
+}  // namespace billow::sim
