@@ -15,21 +15,23 @@ namespace billow::render {
 /// One body as the renderer needs it for a whole run.
 struct DrawnBody {
   sim::Surface surface;
-  Image texture;                              // empty: plain `colour`
-  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};   // linear-light RGB in [0, 1]
+  Image texture;                             // empty: plain `colour`
+  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};  // linear-light RGB in [0, 1]
 };
 
 /// What holds for every frame of a run and is known before the first one is drawn.
 struct RunBounds {
-  Eigen::AlignedBox3d box;      // [m]   all positions of all frames: fits the camera, the ground and the shadow map
-  double max_velocity = 1.0;    // [m/s] largest |component| of all frames: the velocity view's scale when not given
+  Eigen::AlignedBox3d box;    // [m]   all positions of all frames: fits the camera, the ground and the shadow map
+  double max_velocity = 1.0;  // [m/s] largest |component| of all frames: the velocity view's scale when not given
 };
 
 /// An OSMesa context with the run's meshes and textures in it. Not thread-safe: use it from the thread that made it.
 class MeshRenderer {
  public:
+  /// `threads` rasterise (0: one per core); the first renderer of the process decides for all, and LP_NUM_THREADS in
+  /// the environment wins. The pixels do not depend on it.
   /// Throws InputError on an image size the GL cannot do, std::runtime_error when there is no GL.
-  MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds);
+  MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds, int threads = 0);
   ~MeshRenderer();
   MeshRenderer(const MeshRenderer&) = delete;
   MeshRenderer& operator=(const MeshRenderer&) = delete;

@@ -33,11 +33,13 @@ struct Settings {
   int samples = 4;                 // multisampling; 1, 2, 4, or 8, 16 by supersampling
   std::vector<View> views{View::textured, View::velocity};
   Camera camera;
-  bool ground = true;                                      // draw a ground plane that receives the shadow
-  std::optional<double> ground_height;                     // [m] y; unset: just below the lowest point of the run
+  bool ground = true;                   // draw a ground plane that receives the shadow
+  std::optional<double> ground_height;  // [m] y; unset: just below the lowest point of the run
   VelocityColour velocity_colour = VelocityColour::components;
-  std::optional<double> velocity_range;                    // [m/s] v_max; unset: found from the run
-  bool legend = true;                                      // label the velocity view with its scale
+  std::optional<double> velocity_range;  // [m/s] v_max; unset: found from the run
+  double velocity_shading = 0.25;        // how much the velocity view darkens surfaces that turn
+                                         // away from the eye, in [0, 1]; 0: exact colours everywhere
+  bool legend = true;                    // label the velocity view with its scale
   Background background;
 };
 

@@ -1,0 +1,244 @@
+// GLSL 3.30. Colours are linear light throughout; the sRGB framebuffer encodes them. llvmpipe runs both sides of an
+// `if`, so work is skipped by loops that need no turn.
+#include "render/shaders.h"
+
+namespace billow::render::shaders {
+
+const char* const kSurfaceVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 velocity;
+layout(location = 3) in vec2 texture_place;
+uniform mat4 view_projection;
+out vec3 world;
+out vec3 world_normal;
+out vec3 world_velocity;
+out vec2 place;
+
+void main() {
+  world = position;
+  world_normal = normal;
+  world_velocity = velocity;
+  place = texture_place;
+  gl_Position = view_projection * vec4(position, 1.0);
+}
+)";
+
+const char* const kClothFragment = R"(#version 330 core
+in vec3 world;
+in vec3 world_normal;
+in vec2 place;
+uniform sampler2D albedo_map;
+uniform sampler2DShadow shadow_map;
+uniform mat4 light_texture;   // world -> (u, v, depth) in the shadow map
+uniform vec3 colour;
+uniform vec3 eye;
+uniform vec3 to_light;
+uniform float shadow_offset;  // [m] along the normal, against a surface shadowing itself
+uniform vec2 shadow_blur;     // [texture] radius of the filter disc
+out vec4 pixel;
+
+const vec3 kKey = vec3(0.98, 0.94, 0.88);
+const vec3 kSky = vec3(0.40, 0.43, 0.48);
+const vec3 kGroundBounce = vec3(0.27, 0.25, 0.23);
+const int kTaps = 6;
+const vec2 kDisc[6] = vec2[](vec2(0.289, 0.000), vec2(-0.369, 0.338), vec2(0.056, -0.643),
+                             vec2(0.465, 0.606), vec2(-0.853, -0.151), vec2(0.808, -0.513));
+
+float key_visibility(vec3 lit_side) {
+  vec3 c = (light_texture * vec4(world + lit_side * shadow_offset, 1.0)).xyz;
+  float sum = 0.0;
+  for (int i = 0; i < kTaps; ++i) sum += texture(shadow_map, vec3(c.xy + kDisc[i] * shadow_blur, c.z));
+  return sum / float(kTaps);
+}
+
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
+  vec3 to_eye = normalize(eye - world);
+  vec3 albedo = texture(albedo_map, place).rgb * colour;
+  float luma = dot(albedo, vec3(0.2126, 0.7152, 0.0722));
+  albedo = gl_FrontFacing ? albedo : 0.78 * mix(albedo, vec3(luma), 0.30);
+
+  float facing = dot(n, to_light);
+  float visible = key_visibility(facing > 0.0 ? n : -n);
+  // Thin cloth: a wrapped diffuse term on the lit side, and some of the light comes through from behind.
+  float diffuse = max((facing + 0.12) / 1.12, 0.0);
+  float through = 0.22 * max(-facing, 0.0);
+  vec3 ambient = mix(kGroundBounce, kSky, 0.5 + 0.5 * n.y);
+
+  // Sheen: fibres that stand off the cloth catch light at grazing angles.
+  float grazing = 1.0 - max(dot(n, to_eye), 0.0);
+  float sheen = 0.10 * grazing * grazing * grazing;
+  float half_facing = max(dot(n, normalize(to_light + to_eye)), 0.0);
+  float gloss = half_facing * half_facing;
+  gloss *= gloss;
+  gloss *= gloss;
+  gloss = 0.05 * gloss * gloss * visible * max(facing, 0.0);
+
+  vec3 light = kKey * visible * (diffuse + through) + ambient;
+  vec3 shaded = albedo * light + (sheen * ambient + gloss * kKey);
+  pixel = vec4(shaded / (1.0 + 0.12 * shaded * shaded), 1.0);  // a soft shoulder keeps white cloth from clipping
+}
+)";
+
+const char* const kVelocityFragment = R"(#version 330 core
+in vec3 world;
+in vec3 world_normal;
+in vec3 world_velocity;
+uniform vec3 eye;
+uniform float shading;         // 0: flat, exact colours
+uniform float velocity_range;  // [m/s]
+out vec4 pixel;
+
+vec3 velocity_colour(vec3 v);  // linear light
+
+// 1 where the surface faces the eye, so that those colours are exact; folds that turn away darken.
+void main() {
+  float facing = abs(dot(normalize(world_normal), normalize(eye - world)));
+  pixel = vec4(velocity_colour(world_velocity / velocity_range) * (1.0 - shading * (1.0 - facing)), 1.0);
+}
+)";
+
+const char* const kComponentColour = R"(
+// c = 1/2 + 1/2 v / v_max is the sRGB-encoded colour; the framebuffer wants linear light.
+vec3 velocity_colour(vec3 v) {
+  vec3 c = clamp(0.5 + 0.5 * v, 0.0, 1.0);
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+)";
+
+const char* const kMagnitudeColour = R"(
+uniform sampler2D ramp;  // 256 x 1, sRGB
+vec3 velocity_colour(vec3 v) {
+  return texture(ramp, vec2((0.5 + 255.0 * min(length(v), 1.0)) / 256.0, 0.5)).rgb;
+}
+)";
+
+const char* const kScreenVertex = R"(#version 330 core
+out vec2 place;  // (-1, -1) bottom left to (1, 1) top right
+
+void main() {
+  place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(place, 1.0, 1.0);
+}
+)";
+
+const char* const kBackgroundFragment = R"(#version 330 core
+in vec2 place;
+uniform vec3 top;
+uniform vec3 bottom;
+out vec4 pixel;
+
+void main() {
+  pixel = vec4(mix(bottom, top, smoothstep(-1.0, 1.0, place.y)), 1.0);
+}
+)";
+
+const char* const kGroundVertex = R"(#version 330 core
+uniform mat4 view_projection;
+uniform vec3 centre;        // [m]
+uniform vec3 patch_u;       // [1/m] world -> shadow patch, in [-1, 1]
+uniform vec3 patch_v;
+uniform float extent;       // [m]
+out vec2 away;              // from the centre, in extents
+out vec2 patch_place;       // in the patch's texture
+
+void main() {
+  away = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? 1.0 : -1.0);
+  vec3 offset = vec3(away.x, 0.0, away.y) * extent;
+  patch_place = 0.5 + 0.5 * vec2(dot(offset, patch_u), dot(offset, patch_v));
+  gl_Position = view_projection * vec4(centre + offset, 1.0);
+}
+)";
+
+const char* const kGroundFragment = R"(#version 330 core
+in vec2 away;
+in vec2 patch_place;
+uniform sampler2D occlusion;
+uniform vec3 top;
+uniform vec3 bottom;
+uniform vec3 floor_colour;
+uniform float frame_height;  // [pixel]
+uniform vec3 shadow_tint;    // what is left of the light in full shadow
+out vec4 pixel;
+
+void main() {
+  float height = smoothstep(0.0, frame_height, gl_FragCoord.y);
+  float near = max(1.0 - dot(away, away), 0.0);
+  vec3 colour = mix(mix(bottom, top, height), floor_colour, near * near * near);
+  pixel = vec4(colour * mix(vec3(1.0), shadow_tint, texture(occlusion, patch_place).r), 1.0);
+}
+)";
+
+const char* const kDepthVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 light_projection;
+
+void main() {
+  gl_Position = light_projection * vec4(position, 1.0);
+}
+)";
+
+const char* const kDepthFragment = R"(#version 330 core
+void main() {}
+)";
+
+const char* const kOcclusionFragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D depth_map;
+uniform mat4 patch_to_light;  // (s, t, 0, 1) on the ground -> (u, v, depth) in the shadow map
+uniform vec3 light_size;      // [m]
+uniform float spread;
+out vec4 pixel;
+
+const int kSearchTaps = 12;
+const int kTaps = 24;
+
+// Vogel's spiral: n points spread evenly over the unit disc.
+vec2 disc(int i, int n, float turn) {
+  float angle = 2.3999632 * float(i) + turn;
+  return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
+}
+
+// Percentage-closer soft shadows (Fernando 2005): the penumbra is as wide as the blockers are far.
+void main() {
+  vec3 c = (patch_to_light * vec4(place, 0.0, 1.0)).xyz;
+  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec2 reach = spread * light_size.z / light_size.xy;  // [texture] per unit of depth
+  float nearest = min(c.z, 1.0);
+  float distance = 0.0;
+  float blockers = 0.0;
+  for (int i = 0; i < kSearchTaps; ++i) {
+    float depth = texture(depth_map, c.xy + disc(i, kSearchTaps, turn) * reach * c.z).r;
+    float blocks = depth < nearest ? 1.0 : 0.0;
+    distance += blocks * (c.z - depth);
+    blockers += blocks;
+  }
+  int taps = blockers > 0.0 ? kTaps : 0;
+  vec2 radius = reach * distance / max(blockers, 1.0);
+  float hits = 0.0;
+  for (int i = 0; i < taps; ++i)
+    hits += texture(depth_map, c.xy + disc(i, kTaps, turn) * radius).r < nearest ? 1.0 : 0.0;
+  pixel = vec4(hits / float(kTaps));
+}
+)";
+
+const char* const kBlurFragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D image;
+uniform vec2 texel;
+out vec4 pixel;
+
+// Bilinear taps between the texels: 16 of them in 4 reads of a 4 x 4 tent.
+void main() {
+  vec2 p = 0.5 + 0.5 * place;
+  vec4 sum = texture(image, p + vec2(-1.0, -1.0) * texel) + texture(image, p + vec2(1.0, -1.0) * texel) +
+             texture(image, p + vec2(-1.0, 1.0) * texel) + texture(image, p + vec2(1.0, 1.0) * texel) +
+             2.0 * (texture(image, p + vec2(0.0, -1.0) * texel) + texture(image, p + vec2(0.0, 1.0) * texel) +
+                    texture(image, p + vec2(-1.0, 0.0) * texel) + texture(image, p + vec2(1.0, 0.0) * texel)) +
+             4.0 * texture(image, p);
+  pixel = sum / 16.0;
+}
+)";
+
+}  // namespace billow::render::shaders

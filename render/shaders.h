@@ -1,0 +1,20 @@
+// The GLSL of every pass.
+#pragma once
+
+namespace billow::render::shaders {
+
+extern const char* const kSurfaceVertex;       // a body's corner -> clip space
+extern const char* const kClothFragment;       // lit, textured, two-sided
+extern const char* const kVelocityFragment;    // a body in colours of its velocity; to be followed by one of
+extern const char* const kComponentColour;     // - components as RGB
+extern const char* const kMagnitudeColour;     // - speed through a colour ramp
+extern const char* const kScreenVertex;        // a triangle that covers the target, at the far plane
+extern const char* const kBackgroundFragment;  // vertical gradient
+extern const char* const kGroundVertex;        // the ground plane around the bodies
+extern const char* const kGroundFragment;      // ground that fades into the background, with the shadow on it
+extern const char* const kDepthVertex;         // a body's corner -> the light's clip space
+extern const char* const kDepthFragment;       // nothing but depth
+extern const char* const kOcclusionFragment;   // how much of the key light each texel of the ground patch misses
+extern const char* const kBlurFragment;        // a small tent blur
+
+}  // namespace billow::render::shaders

@@ -1,0 +1,86 @@
+// Placing camera, light and ground around a run's bounding box.
+#include "render/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/camera.h"
+
+namespace billow::render {
+namespace {
+
+constexpr double kGroundGap = 0.02;     // the ground lies this share of the box's diagonal below it
+constexpr double kGroundExtent = 12.0;  // [radius] how far the drawn ground reaches
+constexpr double kLightLeft = 0.55, kLightUp = 1.25, kLightToCamera = 0.60;
+
+Eigen::AlignedBox3d sound_box(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return {Eigen::Vector3d::Constant(-0.5), Eigen::Vector3d::Constant(0.5)};
+  const Eigen::Vector3d least = Eigen::Vector3d::Constant(std::max(1e-3, 1e-3 * box.diagonal().norm()));
+  return {box.min() - least, box.max() + least};
+}
+
+// Relative to the camera, so that whatever it looks at is lit from the front and the side.
+Eigen::Vector3d light_direction(const Eigen::Matrix4d& view) {
+  const Eigen::Vector3d right = view.row(0).head<3>().transpose();
+  const Eigen::Vector3d to_camera = right.cross(Eigen::Vector3d::UnitY());
+  return (-kLightLeft * right + kLightUp * Eigen::Vector3d::UnitY() + kLightToCamera * to_camera).normalized();
+}
+
+Eigen::Matrix4d light_view(const Eigen::Vector3d& to_light) {
+  Camera light;
+  light.eye = to_light;
+  light.look_at.setZero();
+  return view_matrix(light);
+}
+
+double ground_height(const Settings& settings, const Eigen::AlignedBox3d& box) {
+  return settings.ground_height.value_or(box.min().y() - kGroundGap * box.diagonal().norm());
+}
+
+// The box's shadow, widened by the penumbra at its far end.
+GroundPatch shadow_patch(const Stage& stage, const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector3d along = Eigen::Vector3d(stage.to_light.x(), 0.0, stage.to_light.z()).normalized();
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitY().cross(along);
+  Eigen::AlignedBox2d shadow;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    const Eigen::Vector3d hit = corner - stage.to_light * ((corner.y() - stage.ground_height) / stage.to_light.y());
+    shadow.extend(Eigen::Vector2d(hit.dot(along), hit.dot(across)));
+  }
+  const double penumbra = 2.0 * kLightSpread * std::max(box.max().y() - stage.ground_height, 0.0) / stage.to_light.y();
+  const Eigen::Vector2d half = (0.5 * shadow.sizes()).array() + penumbra + 0.1 * stage.radius;
+  const Eigen::Vector3d centre =
+      along * shadow.center().x() + across * shadow.center().y() + Eigen::Vector3d::UnitY() * stage.ground_height;
+  return {centre, along * half.x(), across * half.y()};
+}
+
+// The near plane leaves room for bodies that stray out of the box; the far one takes in all of the drawn ground.
+Eigen::Matrix4d camera_projection(const Settings& settings, const Stage& stage, const Eigen::AlignedBox3d& box) {
+  const double distance = (stage.camera.eye - box.center()).norm();
+  const double near = std::max(0.02 * distance, distance - 3.0 * stage.radius);
+  const double far = distance + (kGroundExtent + 3.0) * stage.radius;
+  const double aspect = double(settings.width) / settings.height;
+  return perspective(stage.camera.vertical_fov, aspect, near, far);
+}
+
+}  // namespace
+
+Stage make_stage(const Settings& settings, const Eigen::AlignedBox3d& bounds) {
+  const Eigen::AlignedBox3d box = sound_box(bounds);
+  const double aspect = double(settings.width) / settings.height;
+  Stage stage;
+  stage.camera = settings.camera.fitted ? fit_camera(settings.camera, box, aspect) : settings.camera;
+  stage.radius = 0.5 * box.diagonal().norm();
+  stage.ground_height = ground_height(settings, box);
+  const Eigen::Matrix4d view = view_matrix(stage.camera);
+  stage.view_projection = camera_projection(settings, stage, box) * view;
+  stage.to_light = light_direction(view);
+  const Eigen::Matrix4d to_light_view = light_view(stage.to_light);
+  const Eigen::AlignedBox3d light_box = transformed_box(box, to_light_view);
+  stage.light_projection = orthographic(light_box) * to_light_view;
+  stage.light_size = light_box.sizes();
+  stage.shadow_patch = shadow_patch(stage, box);
+  return stage;
+}
+
+}  // namespace billow::render
