@@ -1,0 +1,50 @@
+// "Did you mean …?" for misspelt keys and names.
+#include "cli/suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace billow::cli {
+namespace {
+
+// Words further apart than a third of their length have nothing to do with each other.
+bool near(std::string_view word, std::string_view candidate, int distance) {
+  const int length = static_cast<int>(std::max(word.size(), candidate.size()));
+  return distance <= std::max(1, length / 3);
+}
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> two_back(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int substitution = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substitution});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) current[j] = std::min(current[j], two_back[j - 2] + 1);
+    }
+    two_back.swap(previous);
+    previous.swap(current);
+  }
+  return previous[b.size()];
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, std::string_view label) {
+  // A key of a kilobyte is no typing mistake, and its distance would take a while.
+  if (word.size() <= 64) {
+    std::string_view best;
+    int best_distance = 65;
+    for (const std::string_view candidate : candidates) {
+      const int distance = edit_distance(word, candidate);
+      if (distance < best_distance && near(word, candidate, distance)) best = candidate, best_distance = distance;
+    }
+    if (!best.empty()) return fmt::format("; did you mean '{}'?", best);
+  }
+  return fmt::format("; {}: {}", label, fmt::join(candidates, ", "));
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,17 @@
+// "Did you mean …?" for misspelt keys and names.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace billow::cli {
+
+/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each costing 1.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The end of a message about the unknown `word`: "; did you mean 'stiffness'?", or, when no candidate is near,
+/// "; LABEL: first, second, …".
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, std::string_view label);
+
+}  // namespace billow::cli

@@ -1,0 +1,26 @@
+// Text files that users write: read whole, and only if they are text.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace billow::cli {
+
+/// The file's bytes. Throws InputError on a file that is missing, no regular file, unreadable or larger than
+/// `max_bytes`; nothing of a file that is too large is read.
+std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_bytes);
+
+/// Offset of the first byte that is not UTF-8 text: malformed UTF-8, or a control character other than tab, line feed
+/// and carriage return.
+std::optional<std::size_t> find_non_text(std::string_view bytes);
+
+/// Throws InputError "NAME:LINE:COLUMN: …" unless `bytes` is UTF-8 text.
+void check_utf8_text(std::string_view bytes, const std::string& name);
+
+/// Number of characters (code points) in UTF-8 text.
+std::size_t character_count(std::string_view text);
+
+}  // namespace billow::cli

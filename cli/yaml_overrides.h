@@ -1,0 +1,22 @@
+// "-D key.path=value": changes to a tree before anything in it is checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/yaml_tree.h"
+
+namespace billow::cli {
+
+/// A `-D key.path=value` from the command line.
+struct Override {
+  std::string path;   // e.g. "solver.filter.lambda", "bodies.0.cloth.mass" or "bodies.drape.cloth.mass"
+  std::string value;  // YAML
+};
+
+/// The tree with the overrides applied in order; `root` itself stays as it is. Maps on the way that do not exist are
+/// made; an entry of a list is named by its index from 0, or by the value of its key `name`. Throws InputError
+/// "-D PATH: …" where a path leads nowhere or a value is no YAML. Whether a key is known is left to the reader.
+NodePtr with_overrides(const NodePtr& root, const std::vector<Override>& overrides);
+
+}  // namespace billow::cli

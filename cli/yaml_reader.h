@@ -1,0 +1,105 @@
+// Typed, checked access to a YAML tree: every value has a kind and a range, every fault its place in the file, and
+// every value read is written down again, defaults included.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/yaml_tree.h"
+
+namespace billow::cli {
+
+/// The numbers a key accepts, and their unit.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool above_min = false;  // min itself is excluded
+  std::string_view unit = {};
+};
+
+/// One key of a map.
+struct Key {
+  std::string_view name;
+  Range range = {};                            // of its number, or of each number in its list
+  std::vector<std::string_view> choices = {};  // the words an enumeration accepts, in the order of its enumerators
+};
+
+/// The keys that a map may have.
+struct Section {
+  std::string_view name;  // as messages say it: "unknown key 'stifness' in NAME"
+  std::vector<Key> keys;
+
+  const Key& key(std::string_view name) const;
+};
+
+/// Throws InputError "WHERE: MESSAGE".
+[[noreturn]] void fail_at(const std::string& where, const std::string& message);
+
+/// A single value as text, whole number or number, `name` being what messages call it. Throws InputError.
+std::string read_text(const Node& node, std::string_view name);
+int read_integer(const Node& node, std::string_view name, const Range& range);
+double read_number(const Node& node, std::string_view name, const Range& range);
+/// A list of exactly three numbers.
+Eigen::Vector3d read_vector(const Node& node, std::string_view name, const Range& range);
+/// The entries of a list.
+const std::vector<NodePtr>& read_list(const Node& node, std::string_view name);
+/// The place of a word among `choices`.
+int read_choice(const Node& node, std::string_view name, const std::vector<std::string_view>& choices);
+/// True for the unquoted word `word`.
+bool is_word(const Node& node, std::string_view word);
+
+NodePtr record_of(double value);
+NodePtr record_of(const Eigen::Vector3d& value);
+
+/// One map of the file against its section. Getters without a default throw InputError when the key is missing.
+/// What they return is also entered in `record`, in the order of the calls.
+class MapReader {
+ public:
+  /// Throws InputError when `node` is no map or has a key that the section does not know.
+  MapReader(const Node& node, const Section& section, NodePtr record);
+  MapReader(const MapReader&) = delete;
+  MapReader& operator=(const MapReader&) = delete;
+
+  /// Where the value of `key` stands, or the map when it is missing.
+  const std::string& where(std::string_view key) const;
+  const std::string& where() const { return where_; }
+  /// The value of `key`, null when the key is missing. Throws InputError on a key without a value.
+  const Node* find(std::string_view key) const;
+  const Node& require(std::string_view key) const;
+
+  double number(std::string_view key, std::optional<double> fallback = {});
+  /// A number, or the word `none` for nothing, which is also the default.
+  std::optional<double> number_or(std::string_view key, std::string_view none);
+  int integer(std::string_view key, std::optional<int> fallback = {});
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback);
+  template <class Enum>
+  Enum choice(std::string_view key, Enum fallback) {
+    return static_cast<Enum>(choice_index(key, static_cast<int>(fallback)));
+  }
+  /// The map under `key`, empty when the key is missing; its record is entered in this one.
+  MapReader map(std::string_view key, const Section& section) { return map_from(find(key), key, section); }
+  /// The same, but read from `node`, null meaning empty: for values that are short for a map.
+  MapReader map_from(const Node* node, std::string_view key, const Section& section);
+
+  /// Enters a value that the caller has read from find() or require() itself.
+  void record(std::string_view key, NodePtr value);
+  const Key& key(std::string_view name) const { return section_.key(name); }
+  const NodePtr& record() const { return record_; }
+
+ private:
+  MapReader(const Node& node, std::string where, const Section& section, NodePtr record);
+  int choice_index(std::string_view key, int fallback);
+
+  const Node& node_;
+  std::string where_;  // of the map, or of the next map around it that the file has
+  const Section& section_;
+  NodePtr record_;
+};
+
+}  // namespace billow::cli
