@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/yaml_overrides.h"
 #include "render/image.h"
 #include "render/settings.h"
 #include "sim/cloth.h"
@@ -32,22 +33,27 @@ struct SolverSpec {
 struct BodySpec {
   std::string name;
   std::filesystem::path mesh_file;
+  std::string mesh_where;  // place of the mesh in the scene, for messages
   sim::Mesh mesh;
   sim::ClothOptions cloth;
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
   std::filesystem::path texture_file;                          // empty: plain colour
   render::Image texture;
-  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};                    // linear-light RGB
+  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};  // linear-light RGB
 };
+
+/// Which particle each row of the strip shows: the zig-zag of the paper's Figure 3, or the mesh file's own order.
+enum class StripOrder { zigzag, mesh };
 
 struct StripSpec {
   double step = 0.01;  // [s] between columns
+  StripOrder order = StripOrder::zigzag;
 };
 
 struct Scene {
   std::filesystem::path file;
-  double duration = 10.0;                        // [s] > 0
-  Eigen::Vector3d gravity{0.0, -9.81, 0.0};      // [m/s^2]
+  double duration = 10.0;                    // [s] > 0
+  Eigen::Vector3d gravity{0.0, -9.81, 0.0};  // [m/s^2]
   std::vector<BodySpec> bodies;
   SolverSpec solver;
   render::Settings render;
@@ -56,15 +62,13 @@ struct Scene {
   std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
 };
 
-/// A `-D key.path=value` from the command line.
-struct Override {
-  std::string path;   // e.g. "solver.filter.lambda" or "bodies.0.cloth.mass"
-  std::string value;  // YAML
-};
-
-/// Reads and fully checks a scene file: syntax, duplicate and unknown keys, types, finiteness, ranges, meshes, textures,
-/// pins. Relative paths are relative to the scene file. Throws InputError, its text starting with
+/// Reads and fully checks a scene file: syntax, duplicate and unknown keys, types, finiteness, ranges, meshes,
+/// textures, pins. Relative paths are relative to the scene file. Throws InputError, its text starting with
 /// "file:line:column: " (or "-D key.path: "), on the first fault.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// All bodies of the scene as one structure, in order. Throws InputError located at the mesh of a body that makes no
+/// cloth.
+sim::Structure build_structure(const Scene& scene);
 
 }  // namespace billow::cli

@@ -1,0 +1,117 @@
+// Every key that a scene may have, with the numbers and words it accepts. Upper bounds are there to catch slips such as
+// grams for kilograms, or a frame that no memory holds; they are far beyond any cloth.
+#include "cli/scene_keys.h"
+
+namespace billow::cli::keys {
+namespace {
+
+constexpr Range at_least_0(double max, std::string_view unit = {}) { return {0.0, max, false, unit}; }
+constexpr Range above_0(double max, std::string_view unit = {}) { return {0.0, max, true, unit}; }
+constexpr Range within(double bound, std::string_view unit = {}) { return {-bound, bound, false, unit}; }
+constexpr Range between(double min, double max, std::string_view unit = {}) { return {min, max, false, unit}; }
+
+}  // namespace
+
+const Section scene{"the scene",
+                    {{"billow"},
+                     {"duration", above_0(1e5, "s")},
+                     {"gravity", within(1e4, "m/s²")},
+                     {"bodies"},
+                     {"solver"},
+                     {"render"},
+                     {"strip"}}};
+
+const Section body{"body", {{"name"}, {"cloth"}, {"texture"}, {"colour", between(0, 1)}}};
+
+const Section cloth{"cloth",
+                    {{"mesh"},
+                     {"transform"},
+                     {"mass", above_0(1e6, "kg")},
+                     {"mass_distribution", {}, {"area", "uniform"}},
+                     {"model", {}, {"springs", "choi_ko"}},
+                     {"stiffness"},
+                     {"buckling_rigidity", at_least_0(1e6, "N m²")},
+                     {"damping"},
+                     {"velocity", within(1e4, "m/s")},
+                     {"pins"}}};
+
+const Section stiffness{"stiffness",
+                        {{"structural", above_0(1e12, "N/m")},
+                         {"shear", at_least_0(1e12, "N/m")},
+                         {"bend", at_least_0(1e12, "N/m")},
+                         {"max_eigenvalue", above_0(1e16, "s⁻²")}}};
+
+const Section damping{"damping",
+                      {{"model", {}, {"projected", "spring"}},
+                       {"coefficient", at_least_0(1e9, "N s/m")},
+                       {"friction", at_least_0(1e9, "kg/s")}}};
+
+const Section pin{"pin",
+                  {{"corner", {}, {"top_left", "top_right", "bottom_left", "bottom_right"}},
+                   {"vertices", at_least_0(1e9)},
+                   {"box", within(1e6, "m")},
+                   {"group"}}};
+
+const Section transform{
+    "transform", {{"scale", above_0(1e6)}, {"rotate", within(3600, "degrees")}, {"translate", within(1e6, "m")}}};
+
+const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600, "degrees")}}};
+
+const Section solver{"solver",
+                     {{"method", {}, {"forward_euler", "fb_euler", "verlet", "rk4", "backward_euler", "imex"}},
+                      {"step", above_0(1e5, "s")},
+                      {"safety", {0.0, 1.0, true}},
+                      {"linear_solver", {}, {"conjugate_gradient", "cholesky"}},
+                      {"tolerance", {0.0, 0.5, true}},
+                      {"max_iterations", between(1, 1e6)},
+                      {"filter"}}};
+
+const Section filter{"filter",
+                     {{"kernel", {}, {"exponential", "gaussian"}},
+                      {"lambda", above_0(1e3, "per mean rest length")},
+                      {"lambda_keys", between(0, 1e5)},
+                      {"form", {}, {"plain", "symmetric", "conserving"}},
+                      {"target", {}, {"velocity", "force"}},
+                      {"neighbours", {}, {"springs", "radius"}},
+                      {"radius", above_0(100, "mean rest lengths")},
+                      {"distances", {}, {"rest", "current"}},
+                      {"passes", between(1, 100)}}};
+
+const Section render{"render",
+                     {{"size", between(16, 8192, "pixels")},
+                      {"fps", above_0(1e4, "frames per second")},
+                      {"samples", {}, {"1", "2", "4", "8", "16"}},
+                      {"views", {}, {"textured", "velocity"}},
+                      {"camera"},
+                      {"ground", within(1e6, "m")},
+                      {"velocity_colour", {}, {"components", "magnitude"}},
+                      {"velocity_range", above_0(1e6, "m/s")},
+                      {"legend"},
+                      {"background"}}};
+
+const Section camera{"camera",
+                     {{"eye", within(1e6, "m")}, {"look_at", within(1e6, "m")}, {"fov", between(1, 170, "degrees")}}};
+
+const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
+
+const Section strip{"strip", {{"step", above_0(1e5, "s")}, {"order", {}, {"zigzag", "mesh"}}}};
+
+const std::vector<PlacedSection>& all() {
+  static const std::vector<PlacedSection> sections{{"", &scene},
+                                                   {"bodies[]", &body},
+                                                   {"bodies[].cloth", &cloth},
+                                                   {"bodies[].cloth.transform", &transform},
+                                                   {"bodies[].cloth.transform.rotate", &axis_angle},
+                                                   {"bodies[].cloth.stiffness", &stiffness},
+                                                   {"bodies[].cloth.damping", &damping},
+                                                   {"bodies[].cloth.pins[]", &pin},
+                                                   {"solver", &solver},
+                                                   {"solver.filter", &filter},
+                                                   {"render", &render},
+                                                   {"render.camera", &camera},
+                                                   {"render.background", &background},
+                                                   {"strip", &strip}};
+  return sections;
+}
+
+}  // namespace billow::cli::keys

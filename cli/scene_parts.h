@@ -1,0 +1,43 @@
+// The parts of a scene file, each read by a file of its own. Reading needs no other file; loading does, so that every
+// fault of the YAML is found before the first mesh is opened.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/scene.h"
+#include "cli/yaml_reader.h"
+
+namespace billow::cli {
+
+/// What a pin says and where.
+struct PinDraft {
+  sim::Selector selector;
+  std::string where;
+};
+
+/// A body as the YAML has it, and what is needed to load its files.
+struct BodyDraft {
+  BodySpec spec;  // without mesh, texture and pinned vertices
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  double scale = 1.0;
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  std::vector<PinDraft> pins;
+  std::string pins_where, texture_where;
+};
+
+/// `folder` is what relative paths are relative to; `index` gives a nameless body its name.
+BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record);
+
+/// Opens the mesh and the texture and finds the pins.
+BodySpec load_body(BodyDraft draft);
+
+/// `duration` [s] bounds the step.
+SolverSpec read_solver(MapReader& scene, double duration);
+
+render::Settings read_render(MapReader& scene, double duration);
+
+std::optional<StripSpec> read_strip(MapReader& scene, double duration);
+
+}  // namespace billow::cli

@@ -1,0 +1,89 @@
+// solver: in a scene: scheme, step and filter.
+#include <fmt/format.h>
+
+#include "cli/scene_keys.h"
+#include "cli/scene_parts.h"
+
+namespace billow::cli {
+namespace {
+
+void check_keys_ascend(const Node& node, const std::vector<std::pair<double, double>>& keys) {
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (keys[i].first <= keys[i - 1].first)
+      fail_at(node.items[i]->where, fmt::format("lambda_keys[{}] is no later than the one before it", i));
+}
+
+std::pair<double, double> read_lambda_key(const Node& node, std::size_t index, const Range& times) {
+  const std::string name = fmt::format("lambda_keys[{}]", index);
+  if (node.kind != Node::Kind::list || node.items.size() != 2)
+    fail_at(node.where, name + " must be a pair [time, factor]");
+  const double time = read_number(*node.items[0], name + "[0]", times);
+  return {time, read_number(*node.items[1], name + "[1]", {0.0, 1e3, true})};
+}
+
+std::vector<std::pair<double, double>> read_lambda_keys(MapReader& filter) {
+  std::vector<std::pair<double, double>> keys;
+  std::vector<NodePtr> record;
+  if (const Node* node = filter.find("lambda_keys")) {
+    for (const NodePtr& item : read_list(*node, "lambda_keys")) {
+      keys.push_back(read_lambda_key(*item, keys.size(), filter.key("lambda_keys").range));
+      record.push_back(make_list({record_of(keys.back().first), record_of(keys.back().second)}));
+    }
+    check_keys_ascend(*node, keys);
+  }
+  filter.record("lambda_keys", make_list(std::move(record)));
+  return keys;
+}
+
+std::optional<sim::FilterOptions> read_filter(MapReader& solver) {
+  const Node* node = solver.find("filter");
+  if (!node || is_word(*node, "none")) {
+    solver.record("filter", make_scalar("none"));
+    return std::nullopt;
+  }
+  MapReader map = solver.map("filter", keys::filter);
+  sim::FilterOptions filter;
+  filter.kernel = map.choice("kernel", filter.kernel);
+  filter.lambda = map.number("lambda", filter.lambda);
+  filter.lambda_keys = read_lambda_keys(map);
+  filter.form = map.choice("form", filter.form);
+  filter.target = map.choice("target", filter.target);
+  filter.neighbours = map.choice("neighbours", filter.neighbours);
+  filter.radius = map.number("radius", filter.radius);
+  filter.distances = map.choice("distances", filter.distances);
+  filter.passes = map.integer("passes", filter.passes);
+  return filter;
+}
+
+// auto, paper, or seconds.
+void read_step(MapReader& map, double duration, SolverSpec& solver) {
+  const Node* node = map.find("step");
+  if (!node || is_word(*node, "auto") || is_word(*node, "paper")) {
+    solver.step_rule = node && node->text == "paper" ? StepRule::paper : StepRule::automatic;
+    map.record("step", make_scalar(node ? node->text : "auto"));
+    return;
+  }
+  if (node->kind != Node::Kind::scalar) fail_at(node->where, "step must be auto, paper, or a number of seconds");
+  Range range = map.key("step").range;
+  range.max = std::min(range.max, duration);
+  solver.step_rule = StepRule::fixed;
+  solver.step = read_number(*node, "step", range);
+  map.record("step", record_of(solver.step));
+}
+
+}  // namespace
+
+SolverSpec read_solver(MapReader& scene, double duration) {
+  MapReader map = scene.map("solver", keys::solver);
+  SolverSpec solver;
+  solver.method = map.choice("method", solver.method);
+  read_step(map, duration, solver);
+  solver.safety = map.number("safety", solver.safety);
+  solver.integrator.linear_solver = map.choice("linear_solver", solver.integrator.linear_solver);
+  solver.integrator.tolerance = map.number("tolerance", solver.integrator.tolerance);
+  solver.integrator.max_iterations = map.integer("max_iterations", solver.integrator.max_iterations);
+  solver.filter = read_filter(map);
+  return solver;
+}
+
+}  // namespace billow::cli
