@@ -12,10 +12,13 @@
 namespace billow::sim {
 
 struct CertificateOptions {
-  double growth_tolerance = 1e-3;  // a step whose spectral radius is at most 1 plus this counts as stable
-  double step_tolerance = 5e-4;    // relative width of the final bisection interval
-  int steps = 1000;                // linear steps per trial
+  int steps = 1000;              // linear steps per trial of an explicit scheme
+  int implicit_steps = 60;       // of an implicit one, whose modes die out at once or grow at once
+  double step_tolerance = 5e-4;  // relative width of the final bisection interval
   std::uint64_t seed = 1;
+
+  /// A step whose spectral radius exceeds 1 by more than this grows by over e in half a trial, and counts as unstable.
+  double growth_tolerance() const { return 2.0 / steps; }
 };
 
 /// What a search for the largest stable step found.
@@ -25,11 +28,11 @@ struct CertifiedStep {
   int trials = 0;
 };
 
-/// The largest h for which the linearised step x, v -> scheme(force = -K x - C v, filter) does not grow: its spectral
-/// radius is at most 1 + growth_tolerance. Trials run the real scheme and filter from the stiffest mode plus noise;
-/// growth is measured over a trial's second half, so that the linear growth of a double eigenvalue on the unit circle
-/// does not count. The search climbs from a twentieth of 2/sqrt(k0) and bisects the first failure.
-/// `linearisation` is about `position` (n x 3), where the filter takes its current distances. `filter` may be null.
+/// The largest h for which the linearised step x, v -> scheme(force = -K x - C v, filter) does not grow. Trials run the
+/// real scheme and filter from the stiffest mode plus noise, and compare the largest norm of the trial's last quarter
+/// with that of its second: twofold at most for a double eigenvalue on the unit circle, so e counts as growth. The
+/// search climbs from a tenth of 2/sqrt(k0) and bisects the first failure. `linearisation` is about `position` (n x
+/// 3), where the filter takes its current distances. `filter` may be null.
 CertifiedStep certified_step(const Structure& structure, const Linearisation& linearisation,
                              const Eigen::MatrixX3d& position, Method method, const IntegratorOptions& options,
                              const Filter* filter, const CertificateOptions& certificate = {});
