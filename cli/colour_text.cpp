@@ -63,7 +63,7 @@ Eigen::Vector3f read_colour(const Node& node, std::string_view name) {
 // The default passes through its text, so that the record reads back to exactly the same colour.
 Eigen::Vector3f read_colour(MapReader& map, std::string_view key, const Eigen::Vector3f& fallback) {
   const NodePtr default_text = make_scalar(hex_colour(fallback), true);
-  const Node* node = map.find(key);
+  const Node* node = map.find(key, "; a colour that begins with # needs quotes");
   const WrittenColour colour = parse_colour(node ? *node : *default_text, key);
   map.record(key, colour.record);
   return to_linear(colour.srgb);

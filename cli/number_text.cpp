@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <charconv>
 
 namespace billow::cli {
@@ -55,8 +56,14 @@ ParsedNumber parse_number(std::string_view text) {
 
 std::string shortest(double value) {
   std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
+  const double size = std::abs(value);
+  const bool fixed = size == 0.0 || (size >= 1e-5 && size < 1e15);
+  const auto format = fixed ? std::chars_format::fixed : std::chars_format::scientific;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format);
+  std::string text(buffer.data(), result.ptr);
+  // YAML 1.1, and so Python's reader, takes 1e-06 for a word.
+  if (!fixed && text.find('.') == std::string::npos) text.insert(text.find('e'), ".0");
+  return text;
 }
 
 }  // namespace billow::cli

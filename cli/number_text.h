@@ -20,7 +20,7 @@ ParsedNumber parse_number(std::string_view text);
 /// True for an optional sign followed by decimal digits only.
 bool is_whole_number(std::string_view text);
 
-/// The shortest decimal text that parse_number reads back to exactly `value`.
+/// Decimal text of the fewest digits that parse_number reads back to exactly `value`.
 std::string shortest(double value);
 
 }  // namespace billow::cli

@@ -30,7 +30,7 @@ void read_stiffness(MapReader& cloth, sim::ClothOptions& options) {
   options.structural = map.number("structural", options.structural);
   options.shear = map.number("shear", options.shear);
   options.bend = map.number("bend", options.bend);
-  options.max_eigenvalue = map.number_or("max_eigenvalue", "none");
+  options.max_eigenvalue = map.number_or_word("max_eigenvalue");
 }
 
 void read_damping(MapReader& cloth, sim::ClothOptions& options) {

@@ -19,9 +19,9 @@ const Section scene{"the scene",
                      {"bodies"},
                      {"solver"},
                      {"render"},
-                     {"strip"}}};
+                     {"strip", {}, {"none"}}}};
 
-const Section body{"body", {{"name"}, {"cloth"}, {"texture"}, {"colour", between(0, 1)}}};
+const Section body{"body", {{"name"}, {"cloth"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
 
 const Section cloth{"cloth",
                     {{"mesh"},
@@ -39,7 +39,7 @@ const Section stiffness{"stiffness",
                         {{"structural", above_0(1e12, "N/m")},
                          {"shear", at_least_0(1e12, "N/m")},
                          {"bend", at_least_0(1e12, "N/m")},
-                         {"max_eigenvalue", above_0(1e16, "s⁻²")}}};
+                         {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
 
 const Section damping{"damping",
                       {{"model", {}, {"projected", "spring"}},
@@ -59,12 +59,12 @@ const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600
 
 const Section solver{"solver",
                      {{"method", {}, {"forward_euler", "fb_euler", "verlet", "rk4", "backward_euler", "imex"}},
-                      {"step", above_0(1e5, "s")},
+                      {"step", above_0(1e5, "s"), {"auto", "paper"}},
                       {"safety", {0.0, 1.0, true}},
                       {"linear_solver", {}, {"conjugate_gradient", "cholesky"}},
                       {"tolerance", {0.0, 0.5, true}},
                       {"max_iterations", between(1, 1e6)},
-                      {"filter"}}};
+                      {"filter", {}, {"none"}}}};
 
 const Section filter{"filter",
                      {{"kernel", {}, {"exponential", "gaussian"}},
@@ -82,15 +82,16 @@ const Section render{"render",
                       {"fps", above_0(1e4, "frames per second")},
                       {"samples", {}, {"1", "2", "4", "8", "16"}},
                       {"views", {}, {"textured", "velocity"}},
-                      {"camera"},
-                      {"ground", within(1e6, "m")},
+                      {"camera", {}, {"fit"}},
+                      {"ground", within(1e6, "m"), {"true", "false"}},
                       {"velocity_colour", {}, {"components", "magnitude"}},
-                      {"velocity_range", above_0(1e6, "m/s")},
+                      {"velocity_range", above_0(1e6, "m/s"), {"auto"}},
                       {"legend"},
                       {"background"}}};
 
-const Section camera{"camera",
-                     {{"eye", within(1e6, "m")}, {"look_at", within(1e6, "m")}, {"fov", between(1, 170, "degrees")}}};
+const Section camera{
+    "camera",
+    {{"eye", within(1e6, "m"), {"fit"}}, {"look_at", within(1e6, "m"), {"fit"}}, {"fov", between(1, 170, "degrees")}}};
 
 const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
 

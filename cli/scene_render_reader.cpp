@@ -89,14 +89,13 @@ void read_ground(MapReader& map, render::Settings& settings) {
     settings.ground = map.boolean("ground", settings.ground);
     return;
   }
-  if (node->kind != Node::Kind::scalar) fail_at(node->where, "ground must be true, false, or a height");
   settings.ground = true;
   settings.ground_height = map.number("ground");
 }
 
 // One colour is short for the same colour at top and bottom.
 void read_background(MapReader& map, render::Background& background) {
-  const Node* node = map.find("background");
+  const Node* node = map.find("background", "; a colour that begins with # needs quotes");
   Node both = *make_map();
   if (node && node->kind != Node::Kind::map) {
     read_colour(*node, "background");
@@ -123,7 +122,7 @@ render::Settings read_render(MapReader& scene, double duration) {
   read_camera(map, settings.camera);
   read_ground(map, settings);
   settings.velocity_colour = map.choice("velocity_colour", settings.velocity_colour);
-  settings.velocity_range = map.number_or("velocity_range", "auto");
+  settings.velocity_range = map.number_or_word("velocity_range");
   settings.legend = map.boolean("legend", settings.legend);
   read_background(map, settings.background);
   return settings;

@@ -1,6 +1,7 @@
 // solver: in a scene: scheme, step and filter.
 #include <fmt/format.h>
 
+#include "cli/number_text.h"
 #include "cli/scene_keys.h"
 #include "cli/scene_parts.h"
 
@@ -63,12 +64,11 @@ void read_step(MapReader& map, double duration, SolverSpec& solver) {
     map.record("step", make_scalar(node ? node->text : "auto"));
     return;
   }
-  if (node->kind != Node::Kind::scalar) fail_at(node->where, "step must be auto, paper, or a number of seconds");
-  Range range = map.key("step").range;
-  range.max = std::min(range.max, duration);
   solver.step_rule = StepRule::fixed;
-  solver.step = read_number(*node, "step", range);
-  map.record("step", record_of(solver.step));
+  solver.step = map.number("step");
+  if (solver.step > duration)
+    fail_at(node->where, fmt::format("step is {} s, longer than the whole scene of {} s", shortest(solver.step),
+                                     shortest(duration)));
 }
 
 }  // namespace

@@ -8,11 +8,14 @@
 namespace billow::cli {
 namespace {
 
-// Words further apart than a third of their length have nothing to do with each other.
+// Words further apart than a third of their length have nothing to do with each other, nor have 3 and 8.
 bool near(std::string_view word, std::string_view candidate, int distance) {
   const int length = static_cast<int>(std::max(word.size(), candidate.size()));
-  return distance <= std::max(1, length / 3);
+  return distance <= (length < 3 ? 0 : std::max(1, length / 3));
 }
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool same(char a, char b) { return lower(a) == lower(b); }
 
 }  // namespace
 
@@ -22,9 +25,9 @@ int edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     current[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int substitution = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      const int substitution = previous[j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1);
       current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substitution});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      const bool swapped = i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]);
       if (swapped) current[j] = std::min(current[j], two_back[j - 2] + 1);
     }
     two_back.swap(previous);

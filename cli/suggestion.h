@@ -7,7 +7,8 @@
 
 namespace billow::cli {
 
-/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each costing 1.
+/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each costing 1;
+/// upper and lower case are the same.
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The end of a message about the unknown `word`: "; did you mean 'stiffness'?", or, when no candidate is near,

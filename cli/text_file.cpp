@@ -99,4 +99,14 @@ std::size_t character_count(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return !is_continuation(c); }));
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  if (character_count(text) <= longest) return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t characters = 0; characters < longest - 3; ++characters) do
+      ++end;
+    while (is_continuation(static_cast<unsigned char>(text[end])));
+  return std::string(text.substr(0, end)) + "...";
+}
+
 }  // namespace billow::cli

@@ -23,4 +23,7 @@ void check_utf8_text(std::string_view bytes, const std::string& name);
 /// Number of characters (code points) in UTF-8 text.
 std::size_t character_count(std::string_view text);
 
+/// At most 40 characters of `text`, with "..." for what is left out: how messages quote the user.
+std::string shortened(std::string_view text);
+
 }  // namespace billow::cli

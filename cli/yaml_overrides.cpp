@@ -7,10 +7,13 @@
 
 #include "cli/number_text.h"
 #include "cli/suggestion.h"
+#include "cli/text_file.h"
 #include "sim/error.h"
 
 namespace billow::cli {
 namespace {
+
+constexpr std::size_t max_path_keys = 32;
 
 // One override on its way down the tree.
 struct Path {
@@ -30,6 +33,7 @@ Path parse_override(const Override& change) {
     const std::size_t end = std::min(change.path.find('.', begin), change.path.size());
     path.keys.push_back(change.path.substr(begin, end - begin));
     if (path.keys.back().empty()) path.fail("a key is missing in the path");
+    if (path.keys.size() > max_path_keys) path.fail(fmt::format("a path of more than {} keys", max_path_keys));
     begin = end + 1;
   }
   path.value = parse_yaml_value(change.value, path.where);
@@ -55,10 +59,10 @@ std::size_t item_index(const Node& list, const Path& path, std::size_t depth) {
   if (error == std::errc() && end == key.data() + key.size() && index < list.items.size()) return index;
   for (std::size_t i = 0; i < list.items.size(); ++i)
     if (name_of(*list.items[i]) == key) return i;
-  const std::string_view places = list.items.size() == 1 ? "one entry, number 0" : "entries";
-  const std::string count = list.items.size() == 1 ? "" : fmt::format("{} ", list.items.size());
-  path.fail(fmt::format("{} has {}{}; none is '{}'{}", path.upto(depth), count, places, key,
-                        names(list).empty() ? "" : suggestion(key, names(list), "their names")));
+  const std::size_t count = list.items.size();
+  const std::string entries = count == 1 ? "one entry, 0" : fmt::format("{} entries, from 0", count);
+  path.fail(fmt::format("{} has {}; none is '{}'{}", path.upto(depth), entries, shortened(key),
+                        names(list).empty() ? "" : suggestion(key, names(list), "named")));
 }
 
 NodePtr changed(const NodePtr& node, const Path& path, std::size_t depth);
@@ -87,7 +91,7 @@ NodePtr changed(const NodePtr& node, const Path& path, std::size_t depth) {
   if (!node || node->kind == Node::Kind::null) return changed_map(*make_map(path.where), path, depth);
   if (node->kind == Node::Kind::map) return changed_map(*node, path, depth);
   if (node->kind == Node::Kind::list) return changed_list(*node, path, depth);
-  path.fail(fmt::format("{} is '{}' (at {}) and has no keys", path.upto(depth), node->text, node->where));
+  path.fail(fmt::format("{} is '{}' (at {}) and has no keys", path.upto(depth), shortened(node->text), node->where));
 }
 
 }  // namespace

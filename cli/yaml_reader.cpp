@@ -8,6 +8,7 @@
 
 #include "cli/number_text.h"
 #include "cli/suggestion.h"
+#include "cli/text_file.h"
 #include "sim/error.h"
 
 namespace billow::cli {
@@ -25,8 +26,7 @@ std::string shown(const Node& node) {
     case Node::Kind::scalar:
       break;
   }
-  const std::string text = node.text.size() <= 40 ? node.text : node.text.substr(0, 37) + "...";
-  return fmt::format("{1}{0}{1}", text, node.quoted ? '"' : '\'');
+  return fmt::format("{1}{0}{1}", shortened(node.text), node.quoted ? '"' : '\'');
 }
 
 std::string with_unit(double value, const Range& range) {
@@ -73,6 +73,11 @@ void require_plain_scalar(const Node& node, std::string_view name, std::string_v
   if (node.quoted) fail_kind(node, name, wanted, "; leave the quotes out");
 }
 
+// "auto, paper or a number" for a key that accepts words too.
+std::string with_words(const Key& key, std::string_view kind) {
+  return fmt::format("{}{}{}", fmt::join(key.choices, ", "), key.choices.empty() ? "" : " or ", kind);
+}
+
 template <class Value, class Read>
 Value value_or(const Node* node, std::optional<Value> fallback, const Read& read) {
   return node || !fallback ? read(*node) : *fallback;
@@ -94,12 +99,11 @@ std::string read_text(const Node& node, std::string_view name) {
   return node.text;
 }
 
-double read_number(const Node& node, std::string_view name, const Range& range) {
-  require_plain_scalar(node, name, "a number");
+double read_number(const Node& node, std::string_view name, const Range& range, std::string_view wanted) {
+  require_plain_scalar(node, name, wanted);
   const ParsedNumber number = parse_number(node.text);
-  if (number.fault != NumberFault::none)
-    fail_kind(node, name, number.fault == NumberFault::not_finite ? "a finite number" : "a number",
-              hint_for(number.fault));
+  if (number.fault == NumberFault::not_finite) fail_kind(node, name, "a finite number");
+  if (number.fault != NumberFault::none) fail_kind(node, name, wanted, hint_for(number.fault));
   check_range(node, name, range, number.value);
   return number.value;
 }
@@ -156,7 +160,7 @@ MapReader::MapReader(const Node& node, std::string where, const Section& section
   for (const Key& key : section.keys) known.push_back(key.name);
   for (const Entry& entry : node.entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
-      fail_at(entry.where, fmt::format("unknown key '{}' in {}{}", entry.key, section.name,
+      fail_at(entry.where, fmt::format("unknown key '{}' in {}{}", shortened(entry.key), section.name,
                                        suggestion(entry.key, known, "its keys are")));
 }
 
@@ -165,11 +169,11 @@ const std::string& MapReader::where(std::string_view key) const {
   return entry ? entry->value->where : where_;
 }
 
-const Node* MapReader::find(std::string_view key) const {
+const Node* MapReader::find(std::string_view key, std::string_view hint_without_value) const {
   const Entry* entry = node_.find(section_.key(key).name);
   if (!entry) return nullptr;
   if (entry->value->kind == Node::Kind::null)
-    fail_at(entry->value->where, fmt::format("{} has no value (a '#' after a space starts a comment)", key));
+    fail_at(entry->value->where, fmt::format("{} has no value{}", key, hint_without_value));
   return entry->value.get();
 }
 
@@ -181,23 +185,25 @@ const Node& MapReader::require(std::string_view key) const {
 
 double MapReader::number(std::string_view key, std::optional<double> fallback) {
   const Node* node = fallback ? find(key) : &require(key);
-  const double value =
-      value_or(node, fallback, [&](const Node& n) { return read_number(n, key, this->key(key).range); });
+  const Key& known = section_.key(key);
+  const double value = value_or(
+      node, fallback, [&](const Node& n) { return read_number(n, key, known.range, with_words(known, "a number")); });
   record(key, record_of(value));
   return value;
 }
 
-std::optional<double> MapReader::number_or(std::string_view key, std::string_view none) {
+std::optional<double> MapReader::number_or_word(std::string_view key) {
   const Node* node = find(key);
-  std::optional<double> value;
-  if (node && !is_word(*node, none)) value = read_number(*node, key, this->key(key).range);
-  record(key, value ? record_of(*value) : make_scalar(std::string(none)));
-  return value;
+  const std::string_view word = section_.key(key).choices.at(0);
+  if (node && !is_word(*node, word)) return number(key);
+  record(key, make_scalar(std::string(word)));
+  return std::nullopt;
 }
 
 int MapReader::integer(std::string_view key, std::optional<int> fallback) {
   const Node* node = fallback ? find(key) : &require(key);
-  const int value = value_or(node, fallback, [&](const Node& n) { return read_integer(n, key, this->key(key).range); });
+  const int value =
+      value_or(node, fallback, [&](const Node& n) { return read_integer(n, key, section_.key(key).range); });
   record(key, make_scalar(std::to_string(value)));
   return value;
 }
@@ -219,14 +225,14 @@ std::string MapReader::text(std::string_view key, std::optional<std::string> fal
 
 Eigen::Vector3d MapReader::vector(std::string_view key, const Eigen::Vector3d& fallback) {
   const Node* node = find(key);
-  const Eigen::Vector3d value = node ? read_vector(*node, key, this->key(key).range) : fallback;
+  const Eigen::Vector3d value = node ? read_vector(*node, key, section_.key(key).range) : fallback;
   record(key, record_of(value));
   return value;
 }
 
 int MapReader::choice_index(std::string_view key, int fallback) {
   const Node* node = find(key);
-  const std::vector<std::string_view>& choices = this->key(key).choices;
+  const std::vector<std::string_view>& choices = section_.key(key).choices;
   const int index = node ? read_choice(*node, key, choices) : fallback;
   record(key, make_scalar(std::string(choices.at(static_cast<std::size_t>(index)))));
   return index;
@@ -234,6 +240,7 @@ int MapReader::choice_index(std::string_view key, int fallback) {
 
 MapReader MapReader::map_from(const Node* node, std::string_view key, const Section& section) {
   static const Node empty = *make_map();
+  if (node && node->kind != Node::Kind::map) fail_kind(*node, key, with_words(section_.key(key), "a map"));
   NodePtr child = make_map();
   record(key, child);
   return {node ? *node : empty, node ? node->where : where_, section, child};

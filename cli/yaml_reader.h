@@ -24,8 +24,9 @@ struct Range {
 /// One key of a map.
 struct Key {
   std::string_view name;
-  Range range = {};                            // of its number, or of each number in its list
-  std::vector<std::string_view> choices = {};  // the words an enumeration accepts, in the order of its enumerators
+  Range range = {};  // of its number, or of each number in its list
+  std::vector<std::string_view> choices =
+      {};  // the words it accepts: in the order of the enumerators, or beside a number
 };
 
 /// The keys that a map may have.
@@ -42,7 +43,7 @@ struct Section {
 /// A single value as text, whole number or number, `name` being what messages call it. Throws InputError.
 std::string read_text(const Node& node, std::string_view name);
 int read_integer(const Node& node, std::string_view name, const Range& range);
-double read_number(const Node& node, std::string_view name, const Range& range);
+double read_number(const Node& node, std::string_view name, const Range& range, std::string_view wanted = "a number");
 /// A list of exactly three numbers.
 Eigen::Vector3d read_vector(const Node& node, std::string_view name, const Range& range);
 /// The entries of a list.
@@ -68,12 +69,12 @@ class MapReader {
   const std::string& where(std::string_view key) const;
   const std::string& where() const { return where_; }
   /// The value of `key`, null when the key is missing. Throws InputError on a key without a value.
-  const Node* find(std::string_view key) const;
+  const Node* find(std::string_view key, std::string_view hint_without_value = "") const;
   const Node& require(std::string_view key) const;
 
   double number(std::string_view key, std::optional<double> fallback = {});
-  /// A number, or the word `none` for nothing, which is also the default.
-  std::optional<double> number_or(std::string_view key, std::string_view none);
+  /// A number, or the key's one word for nothing, which is also the default.
+  std::optional<double> number_or_word(std::string_view key);
   int integer(std::string_view key, std::optional<int> fallback = {});
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});

@@ -19,7 +19,7 @@ namespace billow::cli {
 namespace {
 
 constexpr std::size_t max_depth = 32;
-constexpr std::size_t max_nodes = 200'000;
+constexpr std::size_t max_nodes = 100'000;
 constexpr std::size_t max_keys = 1000;  // of one map; its keys are searched one by one
 constexpr std::uintmax_t max_bytes = 1 << 20;
 
@@ -119,7 +119,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   NodePtr make(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
-    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, fmt::format("the tag '{}' is not understood here", tag));
+    if (!tag.empty() && tag != "?" && tag != "!")
+      fail(mark, fmt::format("the tag '{}' is not understood here", shortened(tag)));
     auto node = std::make_shared<Node>();
     node->kind = kind;
     node->where = locator_.at(mark);
@@ -159,14 +160,13 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void count(const YAML::Mark& mark, const Node& child, Node& parent) {
     parent.size += child.size;
-    if (parent.size > max_nodes)
-      fail(mark, fmt::format("the file holds more than {} values once its aliases are followed", max_nodes));
+    if (parent.size > max_nodes) fail(mark, fmt::format("more than {} values, each alias counted in full", max_nodes));
   }
 
   Entry new_key(const YAML::Mark& mark, const Node& key, const Node& map) const {
     if (key.kind != Node::Kind::scalar) fail(mark, "a key must be a word");
     if (const Entry* first = map.find(key.text))
-      fail(mark, fmt::format("duplicate key '{}'; it was first given at {}", key.text, first->where));
+      fail(mark, fmt::format("duplicate key '{}'; it was first given at {}", shortened(key.text), first->where));
     if (map.entries.size() >= max_keys) fail(mark, fmt::format("a map with more than {} keys", max_keys));
     return {key.text, locator_.at(mark), nullptr};
   }

@@ -35,7 +35,7 @@ struct Node {
 
 /// Reads a YAML file with one document. Merge keys (<<) are carried out.
 /// Throws InputError, located, on a file that is missing, unreadable, larger than 1 MiB, not UTF-8 text, not valid
-/// YAML, more than 32 levels deep, larger than 200,000 nodes with its aliases expanded, or has a key twice.
+/// YAML, more than 32 levels deep, larger than 100,000 nodes with its aliases expanded, or has a key twice.
 NodePtr read_yaml_file(const std::filesystem::path& file);
 
 /// The same for text; the messages begin with "NAME:LINE:COLUMN: ".
