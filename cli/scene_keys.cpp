@@ -87,7 +87,7 @@ const Section render{"render",
                       {"velocity_colour", {}, {"components", "magnitude"}},
                       {"velocity_range", above_0(1e6, "m/s"), {"auto"}},
                       {"legend"},
-                      {"background"}}};
+                      {"background", between(0, 1)}}};
 
 const Section camera{
     "camera",
