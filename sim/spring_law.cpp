@@ -61,24 +61,40 @@ Tension buckling_tension(double length, double rest_length, double stiffness, do
 
 namespace {
 
-// The length at which the straight branch meets the buckled one: c_b (l - L) = f_b(l). Bisection on their difference,
-// which is positive just below L; returns 0 when the straight branch holds down to zero length.
-double branch_length(double rest_length, double stiffness, double rigidity) {
-  const double scale = 4.0 * rigidity / (rest_length * rest_length);
-  const auto straight_holds = [&](double length) {
-    return stiffness * (length - rest_length) >= scale * buckling_number(inverse_sinc(length / rest_length));
-  };
-  double low = 0.0, high = rest_length;
-  if (straight_holds(low)) return 0.0;
-  for (int k = 0; k < 60; ++k) {
+/// The angles A between which a beam is buckled; both 0 when it never is.
+struct BuckledRange {
+  double least = 0.0, most = 0.0;
+};
+
+// The last angle in (low, high) at which `holds`, which holds at low and fails at high.
+template <class Condition>
+double last_angle(double low, double high, const Condition& holds) {
+  for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    (straight_holds(middle) ? high : low) = middle;
+    (holds(middle) ? low : high) = middle;
   }
-  return high;
+  return low;
 }
 
-double arc_energy(double length, double rest_length, double rigidity) {
-  const double curvature = 2.0 * inverse_sinc(length / rest_length) / rest_length;
+// As functions of the chord l, f_b is concave (its slope falls from 3 pi^2 to 1.8 times scale / L) and c_b (l - L) is a
+// line, so f_b is the larger over one interval at most. The two are farthest apart where their slopes agree. A stiff
+// beam never buckles; a soft one stays buckled to zero length; between them the line wins again at short chords.
+BuckledRange buckled_range(double rest_length, double stiffness, double rigidity) {
+  const double scale = 4.0 * rigidity / (rest_length * rest_length), line = stiffness * rest_length;
+  const auto straight_holds = [&](double a) { return line * (sinc(a) - 1.0) >= scale * buckling_number(a); };
+  const auto line_is_steeper = [&](double a) {
+    return line >= scale * buckling_number_slope(a) * a / chord_slope(a);  // L df_b/dl
+  };
+  constexpr double pi = std::numbers::pi;
+  const double apart = line_is_steeper(pi) ? pi : last_angle(0.0, pi, line_is_steeper);
+  if (straight_holds(apart)) return {};
+  const double least = last_angle(0.0, apart, straight_holds);
+  if (!straight_holds(pi)) return {least, pi};
+  return {least, last_angle(apart, pi, [&](double a) { return !straight_holds(a); })};
+}
+
+double arc_energy(double a, double rest_length, double rigidity) {
+  const double curvature = 2.0 * a / rest_length;
   return 0.5 * rigidity * rest_length * curvature * curvature;
 }
 
@@ -86,10 +102,18 @@ double arc_energy(double length, double rest_length, double rigidity) {
 
 double buckling_energy(double length, double rest_length, double stiffness, double rigidity) {
   if (length >= rest_length) return 0.0;
-  const double branch = branch_length(rest_length, stiffness, rigidity);
-  if (length >= branch) return linear_energy(length, rest_length, stiffness);
-  return linear_energy(branch, rest_length, stiffness) + arc_energy(length, rest_length, rigidity) -
-         arc_energy(branch, rest_length, rigidity);
+  const double line = linear_energy(length, rest_length, stiffness);
+  if (stiffness * (length - rest_length) >= -12.0 * rigidity / (rest_length * rest_length)) return line;
+  const BuckledRange buckled = buckled_range(rest_length, stiffness, rigidity);
+  const double a = inverse_sinc(length / rest_length);
+  if (a <= buckled.least || buckled.most == 0.0) return line;
+  // Along the line to the least angle, then along the arc, then along the line again from the greatest.
+  const auto line_energy = [&](double angle) {
+    return linear_energy(rest_length * sinc(angle), rest_length, stiffness);
+  };
+  const double along_arc =
+      arc_energy(std::min(a, buckled.most), rest_length, rigidity) - arc_energy(buckled.least, rest_length, rigidity);
+  return line_energy(buckled.least) + along_arc + (a > buckled.most ? line - line_energy(buckled.most) : 0.0);
 }
 
 Tension tension(const Body& body, SpringKind kind, double length, double rest_length, double stiffness) {

@@ -26,8 +26,8 @@ inline Tension stretch_tension(double length, double rest_length, double stiffne
 /// A = sinc^-1(l / L): f_b = (4 k_b / L^2) A^2 / (cos A - sin A / A), T = max(f_b, c_b (l - L)) for l < L, else 0.
 /// `rigidity` is k_b [N m^2], `stiffness` c_b [N/m].
 Tension buckling_tension(double length, double rest_length, double stiffness, double rigidity);
-/// Its energy: 1/2 c_b (l - L)^2 while the straight branch holds, then 1/2 k_b L kappa^2 with kappa = 2 A / L,
-/// shifted to be continuous.
+/// Its energy: 1/2 c_b (l - L)^2 where the straight branch holds, 1/2 k_b L kappa^2 with kappa = 2 A / L where the beam
+/// is buckled, shifted to be continuous.
 double buckling_energy(double length, double rest_length, double stiffness, double rigidity);
 
 /// A in (0, pi) with sin(A) / A = ratio, for 0 < ratio < 1; exact to rounding. 0 for ratio >= 1, pi for ratio <= 0.
