@@ -30,18 +30,18 @@ std::vector<int> select_vertices(const Mesh& mesh, const Selector& selector);
 
 struct ClothOptions {
   std::string name = "cloth";
-  double mass = 0.2;                     // [kg]    of the whole cloth
-  bool mass_by_area = true;              //         else the same for every particle
-  double structural = 115.0;             // [N/m]   edges
-  double shear = 80.0;                   // [N/m]   quad diagonals and across the edges of triangle pairs
-  double bend = 35.0;                    // [N/m]   straight across a vertex, two rings apart
-  std::optional<double> max_eigenvalue;  // [1/s^2] scales the three so that lambda_max(M^-1 K) is this
+  double mass = 0.2;                          // [kg]    of the whole cloth
+  bool mass_by_area = true;                   //         else the same for every particle
+  double structural = 115.0;                  // [N/m]   edges
+  double shear = 80.0;                        // [N/m]   quad diagonals and across the edges of triangle pairs
+  double bend = 35.0;                         // [N/m]   straight across a vertex, two rings apart
+  std::optional<double> max_eigenvalue = {};  // [1/s^2] scales the three so that lambda_max(M^-1 K) is this
   SpringModel spring_model = SpringModel::linear;
   double buckling_rigidity = 0.0;  // [N m^2] choi_ko only
   DampingModel damping_model = DampingModel::projected;
-  double damping = 0.0;     // [N s/m] of every spring
-  double friction = 0.0;    // [kg/s]  fluid friction of every particle
-  std::vector<int> pinned;  //         vertices, ascending
+  double damping = 0.0;          // [N s/m] of every spring
+  double friction = 0.0;         // [kg/s]  fluid friction of every particle
+  std::vector<int> pinned = {};  //         vertices, ascending
 };
 
 /// The cloth of `mesh`: one particle per vertex, springs as docs/method.md describes. Throws InputError on a mesh
