@@ -14,7 +14,7 @@
 namespace billow::sim {
 namespace {
 
-constexpr std::size_t max_header_bytes = 1 << 16;
+constexpr std::size_t max_header_bytes = 1 << 20;
 
 std::string head_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -42,8 +42,11 @@ void check(const std::string& what, const std::string& word, long long limit, lo
 }
 
 void check_ply(const std::string& head, const ImportLimits& limits, long long bytes) {
-  std::istringstream words(head);
-  for (std::string word, name, count; words >> word && word != "end_header";)
+  // Without an end, assimp looks for one until its memory is spent.
+  const std::size_t end = head.find("\nend_header");
+  if (end == head.npos) throw InputError("its header has no end; it is truncated or no PLY file");
+  std::istringstream words(head.substr(0, end));
+  for (std::string word, name, count; words >> word;)
     if (word == "element" && words >> name >> count)
       check(name == "vertex" ? "vertices" : name + " elements", count,
             name == "vertex" ? limits.max_vertices : limits.max_faces, bytes);
