@@ -43,11 +43,19 @@ std::vector<BodyDraft> read_bodies(MapReader& scene, const std::filesystem::path
   return drafts;
 }
 
+template <class Value>
+std::string_view bytes_of(const Value* values, std::size_t count) {
+  return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
+}
+
+// The geometry goes in beside the mesh file's bytes, because a glTF keeps it in a second file.
 std::string fingerprint(const Scene& scene) {
   Hash hash;
   hash.add(scene.effective);
   for (const BodySpec& body : scene.bodies) {
     hash.add_file(body.mesh_file);
+    hash.add(bytes_of(body.mesh.position.data(), static_cast<std::size_t>(body.mesh.position.size())));
+    hash.add(bytes_of(body.mesh.face.data(), body.mesh.face.size()));
     if (!body.texture_file.empty()) hash.add_file(body.texture_file);
   }
   return hash.hex();

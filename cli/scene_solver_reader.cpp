@@ -83,6 +83,11 @@ SolverSpec read_solver(MapReader& scene, double duration) {
   solver.integrator.tolerance = map.number("tolerance", solver.integrator.tolerance);
   solver.integrator.max_iterations = map.integer("max_iterations", solver.integrator.max_iterations);
   solver.filter = read_filter(map);
+  // The implicit schemes solve for velocities: there is no single force that a filter could take.
+  if (solver.filter && solver.filter->target == sim::FilterTarget::force && !sim::is_explicit(solver.method))
+    fail_at(map.where("filter"), fmt::format("a force filter needs an explicit method, and {} is implicit; filter the "
+                                             "velocity, or nothing",
+                                             sim::name(solver.method)));
   return solver;
 }
 

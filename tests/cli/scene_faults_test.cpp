@@ -178,6 +178,16 @@ TEST(SceneFaults, Ranges) {
   });
 }
 
+// Keys that do not go together.
+TEST(SceneFaults, Pairs) {
+  expect_messages({
+      {"method: fb_euler\n  step: auto\n  filter: {kernel: exponential, lambda: 1}",
+       "method: imex\n  filter: {target: force}",
+       "scene.yaml:15:11: a force filter needs an explicit method, and imex is implicit; filter the velocity, or "
+       "nothing"},
+  });
+}
+
 // Words that are not in an enumeration.
 TEST(SceneFaults, Words) {
   expect_messages({

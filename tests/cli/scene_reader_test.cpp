@@ -41,7 +41,7 @@ bodies:
       pins: [{corner: bottom_right}, {vertices: [3, 0]}, {group: edge}, {box: [[0.9, 1.9, 2.9], [1.1, 2.1, 3.1]]}]
     colour: [1, 0, 0.5]
 solver:
-  method: imex
+  method: rk4
   step: 0.004
   safety: 0.5
   linear_solver: cholesky
@@ -105,7 +105,7 @@ TEST(SceneReader, ReadsTheMaterial) {
 TEST(SceneReader, ReadsTheSolver) {
   const SceneFolder folder;
   const cli::SolverSpec solver = read_scene(folder.scene(full_scene)).solver;
-  EXPECT_EQ(solver.method, sim::Method::imex);
+  EXPECT_EQ(solver.method, sim::Method::rk4);
   EXPECT_EQ(solver.step_rule, cli::StepRule::fixed);
   EXPECT_EQ(solver.step, 0.004);
   EXPECT_EQ(solver.safety, 0.5);
@@ -155,6 +155,7 @@ TEST(SceneReader, MatchesWordsAndEnumerators) {
   EXPECT_EQ(method("verlet"), sim::Method::verlet);
   EXPECT_EQ(method("rk4"), sim::Method::rk4);
   EXPECT_EQ(method("backward_euler"), sim::Method::backward_euler);
+  EXPECT_EQ(method("imex"), sim::Method::imex);
   const auto form = [&](const char* word) {
     return read_scene(file, {{"solver.filter.form", word}}).solver.filter->form;
   };

@@ -136,6 +136,18 @@ TEST(SceneSchema, HasTheReadersDefaults) {
   expect_same_defaults(at(root, "bodies[]"), *effective->find("bodies")->value->items.at(0));
 }
 
+TEST(SceneFormat, ExplainsEveryKeyAndWord) {
+  std::ifstream stream(BILLOW_SOURCE_DIR "/docs/scene_format.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const auto& [path, section] : cli::keys::all())
+    for (const cli::Key& key : section->keys) {
+      EXPECT_NE(text.find("| `" + std::string(key.name) + "` |"), std::string::npos) << path << "." << key.name;
+      for (const std::string_view word : key.choices)
+        EXPECT_NE(text.find("`" + std::string(word) + "`"), std::string::npos)
+            << path << "." << key.name << ": " << word;
+    }
+}
+
 TEST(SceneSchema, IsNamedByEveryShippedScene) {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BILLOW_SOURCE_DIR "/scenes")) {
