@@ -8,8 +8,10 @@
 
 namespace billow::sim {
 
-/// `exact` is the true Jacobian. `definite` drops the transverse part of compressed springs, which would make the
-/// matrix indefinite: what the implicit schemes and the certificate use (Choi & Ko 2002, section 4.3).
+/// `exact` is the true Jacobian, but for how projected damping turns with its spring, which isn't symmetric and
+/// vanishes when the ends don't move relative to each other. `definite` drops the transverse part of compressed
+/// springs, which would make the matrix indefinite: what the implicit schemes and the certificate use (Choi & Ko 2002,
+/// section 4.3).
 enum class JacobianForm { exact, definite };
 
 /// A symmetric 3n x 3n matrix: a diagonal plus, for each spring i-j with unit vector u, the block
@@ -50,5 +52,10 @@ struct Linearisation {
 /// About rest, every spring with its full stiffness along itself, whichever way its model would let it go slack:
 /// the stiffest that the structure can be at its rest shape.
 Linearisation linearise_at_rest(const Structure& structure);
+
+/// An upper bound over every shape: each spring with its full stiffness in all directions at once. While tensions stay
+/// below k l, a spring's true block (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or
+/// crumple of the structure is stiffer than this.
+Linearisation linearise_any_shape(const Structure& structure);
 
 }  // namespace billow::sim
