@@ -101,7 +101,7 @@ PinDraft read_pin(const Node& node, const NodePtr& record) {
   const std::string& key = node.entries[0].key;
   PinDraft draft;
   draft.where = pin.where(key);
-  if (key == "corner") draft.selector = (pin.require("corner"), pin.choice("corner", sim::Corner::top_left));
+  if (key == "corner") draft.selector = pin.choice("corner", sim::Corner::top_left);
   if (key == "vertices") draft.selector = read_vertices(pin);
   if (key == "box") draft.selector = read_box(pin);
   if (key == "group") draft.selector = sim::GroupName{pin.text("group")};

@@ -103,22 +103,35 @@ Eigen::SparseMatrix<double> StiffnessMatrix::assemble_one_axis(bool eliminate_pi
   return matrix;
 }
 
-Linearisation linearise_at_rest(const Structure& structure) {
-  Linearisation at_rest{StiffnessMatrix(structure), StiffnessMatrix(structure)};
+namespace {
+
+/// How a spring's stiffness and damping enter: along its rest direction, or in all directions.
+enum class SpringReach { along, all };
+
+Linearisation linearised(const Structure& structure, SpringReach reach) {
+  Linearisation result{StiffnessMatrix(structure), StiffnessMatrix(structure)};
+  const auto add = [&](StiffnessMatrix& matrix, int s, const Eigen::Vector3d& u, double value, bool isotropic) {
+    matrix.add_block(s, u, isotropic ? value : 0.0, isotropic ? 0.0 : value);
+  };
   for (const Body& body : structure.body) {
-    const bool projected = body.damping_model == DampingModel::projected;
+    const bool all = reach == SpringReach::all;
     for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
       const Eigen::RowVector3d d =
           structure.rest_position.row(structure.spring(s, 1)) - structure.rest_position.row(structure.spring(s, 0));
       const Eigen::Vector3d u = d.normalized();
-      const double c = structure.damping(s);
-      at_rest.stiffness.add_block(s, u, 0.0, structure.stiffness(s));
-      at_rest.damping.add_block(s, u, projected ? 0.0 : c, projected ? c : 0.0);
+      add(result.stiffness, s, u, structure.stiffness(s), all);
+      add(result.damping, s, u, structure.damping(s), all || body.damping_model == DampingModel::spring);
     }
     for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
-      at_rest.damping.add_diagonal(i, body.friction);
+      result.damping.add_diagonal(i, body.friction);
   }
-  return at_rest;
+  return result;
 }
+
+}  // namespace
+
+Linearisation linearise_at_rest(const Structure& structure) { return linearised(structure, SpringReach::along); }
+
+Linearisation linearise_any_shape(const Structure& structure) { return linearised(structure, SpringReach::all); }
 
 }  // namespace billow::sim

@@ -1,0 +1,45 @@
+// The commands: each returns an exit status and throws what application.cpp turns into one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/film.h"
+#include "cli/output_folder.h"
+#include "cli/progress.h"
+#include "cli/scene.h"
+
+namespace billow::cli {
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  std::filesystem::path output;      // empty: out/ and the scene's name
+  std::optional<FrameRange> frames;  // none: all
+  Existing existing = Existing::refuse;
+  int threads = 0;  // 0: one per core
+  ProgressStyle progress = ProgressStyle::automatic;
+  std::string command;  // as it was typed, for run.json
+};
+int render_command(const RenderOptions& options);
+
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  bool json = false;
+};
+int check_command(const SceneOptions& options);
+int structure_command(const SceneOptions& options);
+
+struct CompareOptions {
+  std::filesystem::path a, b;
+  std::filesystem::path difference;  // empty: none written
+  bool json = false;
+};
+int compare_command(const CompareOptions& options);
+
+int doctor_command();
+
+}  // namespace billow::cli

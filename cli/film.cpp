@@ -1,0 +1,290 @@
+// The film's three stages and the queues between them.
+#include "cli/film.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "cli/channel.h"
+#include "cli/interrupt.h"
+#include "render/png.h"
+#include "render/velocity_strip.h"
+#include "sim/error.h"
+#include "sim/particle_order.h"
+
+namespace billow::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Adds the time until it goes out of scope to `total` [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), begin_(Clock::now()) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  double& total_;
+  Clock::time_point begin_;
+};
+
+/// The sample times of a run in order: frames, strip columns, or both at once.
+class Timeline {
+ public:
+  struct Sample {
+    double time = 0.0;  // [s]
+    std::optional<long> frame, column;
+  };
+
+  /// Ends after frame `last_frame` and before the columns of the frame after it.
+  Timeline(const Scene& scene, long last_frame)
+      : fps_(scene.render.fps),
+        last_frame_(last_frame),
+        end_(std::min(scene.duration, static_cast<double>(last_frame) / scene.render.fps)) {
+    if (scene.strip) column_step_ = scene.strip->step;
+  }
+
+  std::optional<Sample> next() {
+    const double frame_time = next_frame_ <= last_frame_ ? static_cast<double>(next_frame_ - 1) / fps_ : INFINITY;
+    const double strip_time = static_cast<double>(next_column_) * column_step_;
+    const double column_time = strip_time < end_ * (1.0 - 1e-12) ? strip_time : INFINITY;
+    const double time = std::min(frame_time, column_time);
+    if (!std::isfinite(time)) return std::nullopt;
+    Sample sample{time, {}, {}};
+    const double together = time + 1e-9;
+    if (frame_time <= together) sample.frame = next_frame_++;
+    if (column_time <= together) sample.column = next_column_++;
+    return sample;
+  }
+
+ private:
+  double fps_;
+  long last_frame_;
+  double end_;
+  double column_step_ = INFINITY;
+  long next_frame_ = 1, next_column_ = 0;
+};
+
+/// Keeps the first error of several threads and tells everyone to stop.
+class FirstError {
+ public:
+  explicit FirstError(std::function<void()> stop) : stop_(std::move(stop)) {}
+
+  template <class Work>
+  void guard(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      stop_();
+    }
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::function<void()> stop_;
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+struct Snapshot {
+  long frame = 0;
+  double time = 0.0;
+  std::vector<sim::SurfaceState> bodies;
+};
+
+struct FinishedImage {
+  std::filesystem::path file;
+  render::Image image;
+};
+
+FrameRecord record_of(const Simulation& simulation, long frame, const sim::State& state) {
+  const sim::Structure& structure = simulation.structure();
+  return {frame,
+          state.time,
+          sim::kinetic_energy(structure, state),
+          simulation.forces().potential_energy(state),
+          sim::linear_momentum(structure, state),
+          sim::angular_momentum(structure, state)};
+}
+
+// Every body's particles in the strip's order, one body below the other.
+std::vector<int> strip_order(const Scene& scene, const sim::Structure& structure) {
+  std::vector<int> order;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const sim::Body& body = structure.body[b];
+    std::vector<int> rows(body.particles);
+    for (int i = 0; i < body.particles; ++i) rows[i] = i;
+    if (scene.strip->order == StripOrder::zigzag) rows = sim::zigzag_order(scene.bodies[b].mesh);
+    for (const int row : rows) order.push_back(body.first_particle + row);
+  }
+  return order;
+}
+
+/// One run of make_film.
+class Film {
+ public:
+  Film(const Scene& scene, const Simulation& simulation, const StepChoice& choice, const render::RunBounds& bounds,
+       const FrameRange& range, const OutputFolder& folder, int threads, Progress& progress)
+      : scene_(scene),
+        simulation_(simulation),
+        choice_(choice),
+        bounds_(bounds),
+        range_(range),
+        folder_(folder),
+        threads_(threads),
+        progress_(progress),
+        images_(static_cast<std::size_t>(2 * threads)),
+        error_([this] { snapshots_.abort(), images_.abort(); }) {}
+
+  FilmReport run() {
+    {
+      const Stopwatch watch(report_.wall_seconds);
+      std::vector<std::thread> encoders;
+      std::vector<double> encode_seconds(threads_, 0.0);
+      std::vector<long> written(threads_, 0);
+      std::thread simulator([this] { error_.guard([this] { simulate(); }), snapshots_.close(); });
+      for (int t = 0; t < threads_; ++t)
+        encoders.emplace_back([&, t] { error_.guard([&] { encode(encode_seconds[t], written[t]); }); });
+      error_.guard([this] { draw(); });
+      images_.close();
+      simulator.join();
+      for (std::thread& encoder : encoders) encoder.join();
+      for (const double seconds : encode_seconds) report_.encode_seconds += seconds;
+      for (const long images : written) report_.images_written += images;
+    }
+    error_.rethrow();
+    return std::move(report_);
+  }
+
+ private:
+  void simulate() {
+    std::optional<render::VelocityStrip> strip;
+    if (scene_.strip)
+      strip.emplace(folder_.strip(), strip_order(scene_, simulation_.structure()),
+                    scene_.render.velocity_range.value_or(bounds_.max_velocity));
+    const auto solver = simulation_.make_solver(choice_);
+    try {
+      run_timeline(*solver, strip ? &*strip : nullptr);
+    } catch (const DivergenceError& error) {
+      report_.divergence = error.what();
+    }
+    report_.steps = solver->steps();
+    report_.simulated_time = solver->state().time;
+    report_.solves = solver->solve_counts();
+    snapshots_.close();
+    if (!strip) return;
+    report_.strip_columns = strip->columns();
+    if (report_.strip_columns > 0) strip->finish();
+  }
+
+  void run_timeline(sim::Solver& solver, render::VelocityStrip* strip) {
+    Timeline timeline(scene_, range_.last);
+    while (const auto sample = timeline.next()) {
+      if ((report_.interrupted_by = interrupted_by()) != 0) return;
+      std::optional<Snapshot> snapshot;
+      {
+        const Stopwatch watch(report_.simulate_seconds);
+        const sim::State state = solver.sample(sample->time);
+        if (sample->column) strip->add_column(state.velocity);
+        if (sample->frame && *sample->frame >= range_.first) {
+          report_.frames.push_back(record_of(simulation_, *sample->frame, state));
+          snapshot = {*sample->frame, sample->time, simulation_.surfaces(state)};
+        }
+      }
+      if (snapshot && !snapshots_.push(std::move(*snapshot))) return;
+    }
+  }
+
+  bool wanted(render::View view, long frame) const { return !folder_.keeps(view, frame); }
+
+  void draw() {
+    render::MeshRenderer renderer(scene_.render, simulation_.drawn_bodies(), bounds_, threads_);
+    report_.gl = renderer.description();
+    report_.velocity_range = renderer.velocity_range();
+    progress_.begin("render", range_.last - range_.first + 1);
+    while (const auto snapshot = snapshots_.pop()) {
+      for (const render::View view : scene_.render.views) {
+        if (!wanted(view, snapshot->frame)) {
+          ++report_.images_kept;
+          continue;
+        }
+        FinishedImage finished{folder_.frame(view, snapshot->frame), {}};
+        {
+          const Stopwatch watch(report_.draw_seconds);
+          finished.image = renderer.draw(view, snapshot->bodies);
+        }
+        if (!images_.push(std::move(finished))) return;
+      }
+      progress_.update(++report_.frames_drawn, snapshot->time);
+    }
+    progress_.end();
+  }
+
+  void encode(double& seconds, long& written) {
+    while (const auto finished = images_.pop()) {
+      const Stopwatch watch(seconds);
+      render::write_png(finished->file, finished->image);
+      ++written;
+    }
+  }
+
+  const Scene& scene_;
+  const Simulation& simulation_;
+  const StepChoice& choice_;
+  const render::RunBounds& bounds_;
+  FrameRange range_;
+  const OutputFolder& folder_;
+  int threads_;
+  Progress& progress_;
+  Channel<Snapshot> snapshots_{4};
+  Channel<FinishedImage> images_;
+  FirstError error_;
+  FilmReport report_;
+};
+
+}  // namespace
+
+long frame_count(const Scene& scene) {
+  return std::max(1L, static_cast<long>(std::ceil(scene.duration * scene.render.fps - 1e-9)));
+}
+
+Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress) {
+  Survey result;
+  result.bounds.max_velocity = 0.0;
+  const Stopwatch watch(result.seconds);
+  const auto solver = simulation.make_solver(choice);
+  const long frames = frame_count(scene);
+  Timeline timeline(scene, frames);
+  progress.begin("survey", frames);
+  try {
+    while (const auto sample = timeline.next()) {
+      if (interrupted_by() != 0) break;
+      const sim::State state = solver->sample(sample->time);
+      result.bounds.max_velocity = std::max(result.bounds.max_velocity, state.velocity.cwiseAbs().maxCoeff());
+      result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().minCoeff()));
+      result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().maxCoeff()));
+      if (sample->frame) progress.update(*sample->frame, sample->time);
+    }
+  } catch (const DivergenceError&) {
+    // The film meets the same step and reports it, after writing the frames before it.
+  }
+  progress.end();
+  if (result.bounds.max_velocity == 0.0) result.bounds.max_velocity = 1.0;
+  return result;
+}
+
+FilmReport make_film(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+                     const render::RunBounds& bounds, const FrameRange& range, const OutputFolder& folder, int threads,
+                     Progress& progress) {
+  return Film(scene, simulation, choice, bounds, range, folder, threads, progress).run();
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,64 @@
+// The film: simulation, drawing and PNG encoding, side by side.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/output_folder.h"
+#include "cli/progress.h"
+#include "cli/scene.h"
+#include "cli/simulation.h"
+
+namespace billow::cli {
+
+/// Which frames to draw, 1-based, both ends included. Frame f shows the time (f - 1) / fps.
+struct FrameRange {
+  long first = 1, last = 0;
+};
+
+/// Number of frames of a scene: those whose time lies before its duration.
+long frame_count(const Scene& scene);
+
+/// What a run needs to know of itself before its first frame.
+struct Survey {
+  render::RunBounds bounds;
+  double seconds = 0.0;
+};
+
+/// Energy and momentum at one frame.
+struct FrameRecord {
+  long frame = 0;
+  double time = 0.0;                                  // [s]
+  double kinetic = 0.0, potential = 0.0;              // [J]
+  Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
+};
+
+struct FilmReport {
+  std::vector<FrameRecord> frames;
+  long frames_drawn = 0, images_written = 0, images_kept = 0;
+  int strip_columns = 0;
+  long steps = 0;
+  double simulated_time = 0.0;  // [s]
+  sim::SolveCounts solves;
+  double velocity_range = 0.0;  // [m/s]
+  std::string gl;
+  double simulate_seconds = 0.0, draw_seconds = 0.0, encode_seconds = 0.0, wall_seconds = 0.0;
+  int interrupted_by = 0;                 // the signal that ended the run early, or 0
+  std::optional<std::string> divergence;  // the message, when the run diverged
+};
+
+/// Runs the whole scene once without drawing, to find the box it moves in and its largest velocity component: the
+/// camera, the shadow and the velocity colours are then the same for every frame, whichever frames are drawn.
+/// A divergence ends the survey early without an error; the film then meets it too.
+Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress);
+
+/// Draws the frames of `range` and the strip into `folder`. The simulation, the drawing and `threads` encoders overlap;
+/// queues between them are bounded. A divergence or a signal ends the film after the frames before it are written; any
+/// other error is thrown.
+FilmReport make_film(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+                     const render::RunBounds& bounds, const FrameRange& range, const OutputFolder& folder, int threads,
+                     Progress& progress);
+
+}  // namespace billow::cli

@@ -1,0 +1,86 @@
+// Making, checking and clearing a run's folder.
+#include "cli/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "sim/error.h"
+
+namespace billow::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
+bool is_empty_or_missing(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return true;
+  if (!fs::is_directory(folder, error))
+    throw OutputError(fmt::format("{} is not a folder; choose another with -o", folder.string()));
+  return fs::directory_iterator(folder, error) == fs::directory_iterator();
+}
+
+bool is_frame(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return file.extension() == ".png" && stem.starts_with("frame_") && stem.size() > 6 &&
+         stem.find_first_not_of("0123456789", 6) == std::string::npos;
+}
+
+void remove_earlier_run(const fs::path& folder) {
+  std::error_code error;
+  for (const render::View view : {render::View::textured, render::View::velocity}) {
+    std::vector<fs::path> frames;
+    for (const auto& entry : fs::directory_iterator(folder / name(view), error))
+      if (is_frame(entry.path())) frames.push_back(entry.path());
+    for (const fs::path& frame : frames) fs::remove(frame, error);
+    fs::remove(folder / name(view), error);  // only if it is empty now
+  }
+  for (const char* file : {"velocity_strip.png", "run.json"}) fs::remove(folder / file, error);
+}
+
+void check_same_run(const fs::path& record, const std::string& scene_hash) {
+  std::ifstream file(record);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  const std::string hash = json.is_object() && json.contains("scene") ? json["scene"].value("hash", "") : "";
+  if (hash == scene_hash) return;
+  throw OutputError(fmt::format("{} is not of this scene, so its run cannot be resumed; use --overwrite to replace it",
+                                record.string()));
+}
+
+}  // namespace
+
+std::string_view name(render::View view) { return view == render::View::textured ? "textured" : "velocity"; }
+
+OutputFolder::OutputFolder(fs::path folder, Existing existing, const std::string& scene_hash,
+                           const std::vector<render::View>& views)
+    : folder_(std::move(folder)), resume_(existing == Existing::resume) {
+  const bool empty = is_empty_or_missing(folder_);
+  if (!empty && existing == Existing::refuse)
+    throw OutputError(
+        fmt::format("{} already holds files; use --overwrite to replace a run there, --resume to finish "
+                    "it, or -o for another folder",
+                    folder_.string()));
+  if (!empty && resume_) check_same_run(record(), scene_hash);
+  if (!empty && existing == Existing::overwrite) remove_earlier_run(folder_);
+  for (const render::View view : views) make_folder(folder_ / name(view));
+}
+
+fs::path OutputFolder::frame(render::View view, long frame) const {
+  return folder_ / name(view) / fmt::format("frame_{:04}.png", frame);
+}
+
+bool OutputFolder::keeps(render::View view, long number) const {
+  std::error_code error;
+  return resume_ && fs::exists(frame(view, number), error);
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,40 @@
+// Where a run's files go, and what may already be there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/settings.h"
+
+namespace billow::cli {
+
+/// What to do with a folder that already holds something.
+enum class Existing { refuse, overwrite, resume };
+
+/// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json.
+class OutputFolder {
+ public:
+  /// Makes the folder. Throws OutputError when it holds anything and `existing` is refuse, or when it cannot be made.
+  /// `overwrite` removes what an earlier run wrote there, and nothing else. `resume` keeps frames of a run whose
+  /// run.json names `scene_hash`, and refuses any other folder.
+  OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
+               const std::vector<render::View>& views);
+
+  const std::filesystem::path& path() const { return folder_; }
+  std::filesystem::path frame(render::View view, long frame) const;
+  std::filesystem::path strip() const { return folder_ / "velocity_strip.png"; }
+  std::filesystem::path record() const { return folder_ / "run.json"; }
+  /// True when resuming and the frame is there already.
+  bool keeps(render::View view, long frame) const;
+
+ private:
+  std::filesystem::path folder_;
+  bool resume_ = false;
+};
+
+/// The view's name, also of its folder.
+std::string_view name(render::View view);
+
+}  // namespace billow::cli

@@ -1,0 +1,79 @@
+// billow render: a scene's frames, strip and record.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/run_record.h"
+#include "render/atomic_file.h"
+#include "sim/error.h"
+
+namespace billow::cli {
+
+namespace {
+
+std::filesystem::path output_of(const RenderOptions& options) {
+  return options.output.empty() ? std::filesystem::path("out") / options.scene.stem() : options.output;
+}
+
+FrameRange range_of(const RenderOptions& options, const Scene& scene) {
+  const long frames = frame_count(scene);
+  if (!options.frames) return {1, frames};
+  if (options.frames->last > frames)
+    throw InputError(fmt::format("--frames {}-{}: the scene has frames 1 to {}", options.frames->first,
+                                 options.frames->last, frames));
+  return *options.frames;
+}
+
+void say_start(const Simulation& simulation, const Scene& scene, const StepChoice& choice) {
+  fmt::print(stderr, "{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})\n", scene.file.string(),
+             simulation.structure().particles(), simulation.structure().springs(), choice.k0.value,
+             sim::name(scene.solver.method), choice.step, choice.bound);
+  if (!choice.k0.converged)
+    fmt::print(stderr, "warning: the power method did not settle; k0 may be a little too low\n");
+}
+
+void say_end(const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
+  if (report.solves.failures > 0)
+    fmt::print(stderr,
+               "warning: {} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "
+               "smaller step\n",
+               report.solves.failures, report.solves.solves);
+  const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
+  const std::string strip =
+      report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
+  fmt::print(stderr,
+             "wrote {} images{}{} and run.json to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw {:.1f}, encode "
+             "{:.1f}; the last three overlap)\n",
+             report.images_written, kept, strip, folder.path().string(), survey.seconds + report.wall_seconds,
+             survey.seconds, report.simulate_seconds, report.draw_seconds, report.encode_seconds);
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& options) {
+  catch_interrupts();
+  const Scene scene = read_scene(options.scene, options.overrides);
+  const FrameRange range = range_of(options, scene);
+  const Simulation simulation(scene);
+  const StepChoice choice = simulation.choose_step();
+  const OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
+  render::write_file_atomically(folder.record(), begun_record(scene, options.command));
+  say_start(simulation, scene, choice);
+
+  Progress progress(options.progress);
+  const Survey found = survey(scene, simulation, choice, progress);
+  const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  const FilmReport report = make_film(scene, simulation, choice, found.bounds, range, folder, threads, progress);
+  render::write_file_atomically(folder.record(),
+                                finished_record(scene, options.command, simulation, choice, found, report));
+  say_end(report, found, folder);
+  if (report.interrupted_by) return 128 + report.interrupted_by;
+  if (report.divergence) throw DivergenceError(*report.divergence);
+  return exit_done;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,19 @@
+// run.json: what a run was, what it made, and what it cost.
+#pragma once
+
+#include <string>
+
+#include "cli/film.h"
+#include "cli/scene.h"
+#include "cli/simulation.h"
+
+namespace billow::cli {
+
+/// The record of a run that has only begun: enough for --resume to know it by.
+std::string begun_record(const Scene& scene, const std::string& command);
+
+/// The record of a run that ended, whole, diverged or interrupted.
+std::string finished_record(const Scene& scene, const std::string& command, const Simulation& simulation,
+                            const StepChoice& choice, const Survey& survey, const FilmReport& report);
+
+}  // namespace billow::cli

@@ -1,0 +1,56 @@
+// billow structure: particles and springs as built, for other tools.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+
+namespace billow::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json as_json(const sim::Structure& s) {
+  Json json = {{"particles", Json::array()}, {"springs", Json::array()}};
+  for (int i = 0; i < s.particles(); ++i)
+    json["particles"].push_back({{"position", {s.rest_position(i, 0), s.rest_position(i, 1), s.rest_position(i, 2)}},
+                                 {"mass", s.mass(i)},
+                                 {"pinned", s.pinned(i)}});
+  for (int k = 0; k < s.springs(); ++k)
+    json["springs"].push_back({{"i", s.spring(k, 0)},
+                               {"j", s.spring(k, 1)},
+                               {"rest_length", s.rest_length(k)},
+                               {"stiffness", s.stiffness(k)},
+                               {"damping", s.damping(k)},
+                               {"kind", sim::name(s.kind[k])}});
+  return json;
+}
+
+void print_summary(const sim::Structure& s) {
+  for (const sim::Body& body : s.body) {
+    const auto mass = s.mass.segment(body.first_particle, body.particles);
+    fmt::print("{}: {} particles of {:.4g} to {:.4g} kg, {:.4g} kg in all, {} pinned\n", body.name, body.particles,
+               mass.minCoeff(), mass.maxCoeff(), mass.sum(),
+               (s.inverse_mass.segment(body.first_particle, body.particles).array() == 0.0).count());
+    std::map<sim::SpringKind, std::vector<int>> kinds;
+    for (int k = body.first_spring; k < body.first_spring + body.springs; ++k) kinds[s.kind[k]].push_back(k);
+    for (const auto& [kind, springs] : kinds)
+      fmt::print("  {:<10} {:>7} springs of {:.4g} N/m, {:.4g} to {:.4g} m\n", name(kind), springs.size(),
+                 s.stiffness(springs.front()), s.rest_length(springs).minCoeff(), s.rest_length(springs).maxCoeff());
+  }
+}
+
+}  // namespace
+
+int structure_command(const SceneOptions& options) {
+  const sim::Structure structure = build_structure(read_scene(options.scene, options.overrides));
+  if (options.json)
+    fmt::print("{}\n", as_json(structure).dump());
+  else
+    print_summary(structure);
+  return exit_done;
+}
+
+}  // namespace billow::cli
