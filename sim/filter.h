@@ -25,9 +25,9 @@ struct FilterOptions {
   FilterNeighbours neighbours = FilterNeighbours::springs;
   double radius = 2.0;  // [mean rest length] for FilterNeighbours::radius
   FilterDistances distances = FilterDistances::rest;
-  int passes = 1;                                      // times the operator is applied per step, >= 1
-  Eigen::VectorXd lambda_scale;                        // (n) factor on lambda per particle; empty: 1 everywhere
-  std::vector<std::pair<double, double>> lambda_keys;  // (time [s], factor on lambda), ascending; empty: 1 always
+  int passes = 1;                                           // times the operator is applied per step, >= 1
+  Eigen::VectorXd lambda_scale = {};                        // (n) factor on lambda per particle; empty: 1 everywhere
+  std::vector<std::pair<double, double>> lambda_keys = {};  // (time [s], factor on lambda), ascending; empty: 1 always
 };
 
 /// F of the paper's section 4.1 with weights normalised to 1 (method.md section 3). A pinned particle keeps its value
