@@ -14,13 +14,13 @@ namespace billow::render {
   X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                              \
   X(PFNGLBINDTEXTUREPROC, BindTexture)                                        \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                \
+  X(PFNGLBLENDFUNCPROC, BlendFunc)                                            \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                \
   X(PFNGLBUFFERDATAPROC, BufferData)                                          \
   X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                    \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                  \
   X(PFNGLCLEARPROC, Clear)                                                    \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                          \
-  X(PFNGLCOLORMASKPROC, ColorMask)                                            \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                    \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                    \
   X(PFNGLCREATESHADERPROC, CreateShader)                                      \
@@ -62,6 +62,7 @@ namespace billow::render {
   X(PFNGLREADBUFFERPROC, ReadBuffer)                                          \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                          \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)  \
+  X(PFNGLSCISSORPROC, Scissor)                                                \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                      \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                          \
   X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                    \

@@ -10,8 +10,6 @@
 namespace billow::render {
 namespace {
 
-constexpr GLenum kTextureMaxAnisotropy = 0x84FE;  // GL_EXT_texture_filter_anisotropic, not in the core header
-
 std::string compile_log(const Gl& gl, GLuint shader) {
   std::vector<char> log(4096, '\0');
   gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
@@ -80,7 +78,7 @@ GlObject make_framebuffer(const Gl& gl) {
   return {gl, name, [](const Gl& g, GLuint n) { g.DeleteFramebuffers(1, &n); }};
 }
 
-GlObject make_colour_texture(const Gl& gl, const GlLimits& limits, const Image& image) {
+GlObject make_colour_texture(const Gl& gl, const Image& image) {
   GlObject texture = make_texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -89,8 +87,6 @@ GlObject make_colour_texture(const Gl& gl, const GlLimits& limits, const Image& 
   gl.GenerateMipmap(GL_TEXTURE_2D);
   set_wrap(gl, GL_REPEAT);
   set_filter(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
-  if (limits.max_anisotropy > 1.0f)
-    gl.TexParameterf(GL_TEXTURE_2D, kTextureMaxAnisotropy, std::min(4.0f, limits.max_anisotropy));
   return texture;
 }
 

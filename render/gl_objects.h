@@ -45,7 +45,7 @@ GlObject make_renderbuffer(const Gl& gl);
 GlObject make_framebuffer(const Gl& gl);
 
 /// A mipmapped, repeating texture of an sRGB image: sampling it gives linear light. The image's top row is at v = 1.
-GlObject make_colour_texture(const Gl& gl, const GlLimits& limits, const Image& image);
+GlObject make_colour_texture(const Gl& gl, const Image& image);
 
 /// A texture without mipmaps, sampled with `filter`, clamped at its edges.
 GlObject make_plain_texture(const Gl& gl, GLint internal_format, int width, int height, GLint filter);

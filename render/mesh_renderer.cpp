@@ -9,6 +9,7 @@
 #include "render/frame_target.h"
 #include "render/gl_context.h"
 #include "render/legend.h"
+#include "render/pixel_box.h"
 #include "render/shaders.h"
 #include "render/shadow.h"
 #include "render/stage.h"
@@ -16,11 +17,11 @@
 namespace billow::render {
 namespace {
 
-constexpr float kGroundExtent = 8.0f;                          // [radius] the ground fades out over this
-const Eigen::Vector3f kShadowTint(0.40f, 0.42f, 0.46f);        // light left in full shadow, a little cool
-const Eigen::Vector3f kVelocityBackdrop(0.82f, 0.82f, 0.82f);  // neutral, brighter than a cloth at rest
-constexpr float kShadowOffset = 0.006f;                        // [radius]
-constexpr float kShadowBlur = 2.5f;                            // [texel] of the depth map
+constexpr float kGroundExtent = 8.0f;                    // [radius] the ground fades out over this
+const Eigen::Vector3f kShadowTint(0.40f, 0.42f, 0.46f);  // light left in full shadow, a little cool
+constexpr float kVelocityBackdrop = 0.82f;               // linear light: neutral, brighter than a cloth at rest
+constexpr float kShadowOffset = 0.006f;                  // [radius]
+constexpr float kShadowBlur = 2.5f;                      // [texel] of the depth map
 
 Image single_pixel() {
   Image image(1, 1, 3);
@@ -37,8 +38,8 @@ Image ramp_image() {
   return image;
 }
 
-GlObject make_ramp(const Gl& gl, const GlLimits& limits) {
-  GlObject texture = make_colour_texture(gl, limits, ramp_image());
+GlObject make_ramp(const Gl& gl) {
+  GlObject texture = make_colour_texture(gl, ramp_image());
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);  // a ramp has no place for mipmaps
   return texture;
 }
@@ -48,6 +49,23 @@ std::string velocity_fragment(VelocityColour colour) {
   return std::string(shaders::kVelocityFragment) + (components ? shaders::kComponentColour : shaders::kMagnitudeColour);
 }
 
+std::string with_gradient(const char* fragment) { return std::string(fragment) + shaders::kGradient; }
+
+Eigen::Matrix4f single(const Eigen::Matrix4d& matrix) { return matrix.cast<float>(); }
+Eigen::Vector3f single(const Eigen::Vector3d& vector) { return vector.cast<float>(); }
+
+GroundPatch ground_square(const Eigen::Vector3d& centre, double half_side) {
+  return {centre, half_side * Eigen::Vector3d::UnitZ(), half_side * Eigen::Vector3d::UnitX()};
+}
+
+void set_square(const Program& program, const Stage& stage, const GroundPatch& square) {
+  program.use();
+  program.set("view_projection", single(stage.view_projection));
+  program.set("centre", single(square.centre));
+  program.set("half_u", single(square.half_u));
+  program.set("half_v", single(square.half_v));
+}
+
 }  // namespace
 
 struct MeshRenderer::Impl {
@@ -55,12 +73,16 @@ struct MeshRenderer::Impl {
   ~Impl() { context.make_current(); }
 
   void load(const std::vector<DrawnBody>& bodies);
-  void set_up_programs() const;
+  void set_up_bodies() const;
+  void set_up_ground() const;
+  void draw_backdrop() const;
   void update(const std::vector<sim::SurfaceState>& states);
   void draw_textured();
   void draw_velocity();
-  void draw_ground() const;
-  void draw_background(const Eigen::Vector3f& top, const Eigen::Vector3f& bottom) const;
+  void draw_shade() const;
+  void fill_behind_bodies(bool behind_ground) const;
+  void draw_ground_square() const;
+  void draw_screen() const;
   void bind_texture(GLenum unit, GLuint texture) const;
 
   Settings settings;
@@ -70,18 +92,19 @@ struct MeshRenderer::Impl {
   const Gl& gl;
   FrameTarget target;
   Shadow shadow;
-  Program cloth, velocity, ground, background;
+  Program cloth, velocity, background, ground, shade, copy, copy_ground;
   GlObject no_vertices, ramp;
   std::vector<BodyMesh> meshes;
   std::vector<GlObject> textures;
   std::vector<Eigen::Vector3f> colours;
   Image legend;
+  PixelBox covered;  // by the bodies of the current frame
 };
 
 MeshRenderer::Impl::Impl(const Settings& chosen, const std::vector<DrawnBody>& bodies, const RunBounds& bounds,
                          int threads)
     : settings(chosen),
-      velocity_range(chosen.velocity_range.value_or(bounds.max_velocity)),
+      velocity_range(chosen.velocity_range.value_or(bounds.velocity_scale)),
       stage(make_stage(chosen, bounds.box)),
       context(threads),
       gl(context.gl()),
@@ -89,15 +112,21 @@ MeshRenderer::Impl::Impl(const Settings& chosen, const std::vector<DrawnBody>& b
       shadow(gl, stage),
       cloth(gl, "cloth", shaders::kSurfaceVertex, shaders::kClothFragment),
       velocity(gl, "velocity", shaders::kSurfaceVertex, velocity_fragment(chosen.velocity_colour)),
-      ground(gl, "ground", shaders::kGroundVertex, shaders::kGroundFragment),
-      background(gl, "background", shaders::kScreenVertex, shaders::kBackgroundFragment),
+      background(gl, "background", shaders::kScreenVertex, with_gradient(shaders::kBackgroundFragment)),
+      ground(gl, "ground", shaders::kGroundVertex, with_gradient(shaders::kGroundFragment)),
+      shade(gl, "shade", shaders::kGroundVertex, shaders::kShadeFragment),
+      copy(gl, "copy", shaders::kScreenVertex, shaders::kCopyFragment),
+      copy_ground(gl, "copy ground", shaders::kGroundVertex, shaders::kCopyFragment),
       no_vertices(make_vertex_array(gl)),
-      ramp(make_ramp(gl, context.limits())),
+      ramp(make_ramp(gl)),
       legend(draw_legend(chosen.velocity_colour, velocity_range, chosen.height)) {
   load(bodies);
-  set_up_programs();
   gl.Enable(GL_FRAMEBUFFER_SRGB);
-  gl.DepthFunc(GL_LEQUAL);  // the background lies exactly at the far plane
+  gl.DepthFunc(GL_LEQUAL);  // what fills the screen lies exactly at the far plane
+  gl.BlendFunc(GL_DST_COLOR, GL_ZERO);
+  set_up_bodies();
+  set_up_ground();
+  draw_backdrop();
   check_gl(gl, "setting up");
 }
 
@@ -105,46 +134,63 @@ void MeshRenderer::Impl::load(const std::vector<DrawnBody>& bodies) {
   for (const DrawnBody& body : bodies) {
     const bool plain = body.texture.pixels.empty();
     meshes.emplace_back(gl, body.surface);
-    textures.push_back(make_colour_texture(gl, context.limits(), plain ? single_pixel() : body.texture));
+    textures.push_back(make_colour_texture(gl, plain ? single_pixel() : body.texture));
     colours.push_back(plain ? body.colour : Eigen::Vector3f::Ones());
   }
 }
 
-void MeshRenderer::Impl::set_up_programs() const {
-  const Eigen::Matrix4f view_projection = stage.view_projection.cast<float>();
-  const Eigen::Vector3f eye = stage.camera.eye.cast<float>();
-  const float radius = static_cast<float>(stage.radius);
+void MeshRenderer::Impl::set_up_bodies() const {
   cloth.use();
-  cloth.set("view_projection", view_projection);
-  cloth.set("eye", eye);
-  cloth.set("to_light", Eigen::Vector3f(stage.to_light.cast<float>()));
+  cloth.set("view_projection", single(stage.view_projection));
+  cloth.set("eye", single(stage.camera.eye));
+  cloth.set("to_light", single(stage.to_light));
   cloth.set("light_texture", shadow.light_texture());
-  cloth.set("shadow_offset", kShadowOffset * radius);
+  cloth.set("shadow_offset", kShadowOffset * static_cast<float>(stage.radius));
   cloth.set("shadow_blur", Eigen::Vector2f(Eigen::Vector2f::Constant(kShadowBlur * Shadow::texel())));
   cloth.set("albedo_map", 0);
   cloth.set("shadow_map", 1);
   velocity.use();
-  velocity.set("view_projection", view_projection);
-  velocity.set("eye", eye);
+  velocity.set("view_projection", single(stage.view_projection));
+  velocity.set("eye", single(stage.camera.eye));
   velocity.set("velocity_range", static_cast<float>(velocity_range));
   velocity.set("shading", static_cast<float>(settings.velocity_shading));
-  const GroundPatch& patch = stage.shadow_patch;
-  ground.use();
-  ground.set("view_projection", view_projection);
-  ground.set("centre", Eigen::Vector3f(patch.centre.cast<float>()));
-  ground.set("patch_u", Eigen::Vector3f((patch.half_u / patch.half_u.squaredNorm()).cast<float>()));
-  ground.set("patch_v", Eigen::Vector3f((patch.half_v / patch.half_v.squaredNorm()).cast<float>()));
-  ground.set("extent", kGroundExtent * radius);
-  ground.set("top", settings.background.top);
-  ground.set("bottom", settings.background.bottom);
+}
+
+void MeshRenderer::Impl::set_up_ground() const {
+  const GroundPatch wide = ground_square(stage.shadow_patch.centre, kGroundExtent * stage.radius);
+  set_square(ground, stage, wide);
+  set_square(copy_ground, stage, wide);
+  set_square(shade, stage, stage.shadow_patch);
+  shade.set("shadow_tint", kShadowTint);
+  for (const Program* program : {&background, &ground}) {
+    program->use();
+    program->set("top", settings.background.top);
+    program->set("bottom", settings.background.bottom);
+    program->set("frame_height", static_cast<float>(target.drawn_height()));
+  }
   ground.set("floor_colour", settings.background.bottom);
-  ground.set("frame_height", static_cast<float>(target.drawn_height()));
-  ground.set("shadow_tint", kShadowTint);
+}
+
+// Background and ground without shadows are the same in every frame.
+void MeshRenderer::Impl::draw_backdrop() const {
+  target.bind_plain();
+  background.use();
+  draw_screen();
+  if (settings.ground) {
+    ground.use();
+    draw_ground_square();
+  }
+  target.keep_backdrop();
 }
 
 void MeshRenderer::Impl::update(const std::vector<sim::SurfaceState>& states) {
   if (states.size() != meshes.size()) throw std::invalid_argument("draw() wants one state for each body");
-  for (std::size_t b = 0; b < meshes.size(); ++b) meshes[b].update(states[b]);
+  covered = {};
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    meshes[b].update(states[b]);
+    covered = joined(covered, covered_pixels(states[b].position, single(stage.view_projection), target.drawn_width(),
+                                             target.drawn_height()));
+  }
 }
 
 void MeshRenderer::Impl::bind_texture(GLenum unit, GLuint texture) const {
@@ -153,12 +199,12 @@ void MeshRenderer::Impl::bind_texture(GLenum unit, GLuint texture) const {
   gl.ActiveTexture(GL_TEXTURE0);
 }
 
-// Front to back, so that hidden ground and background cost nothing.
 void MeshRenderer::Impl::draw_textured() {
+  target.recall_backdrop();
   shadow.update(meshes);
-  target.bind();
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  if (settings.ground) draw_shade();
+  if (covered.empty()) return;
+  target.bind_sampled(covered);
   cloth.use();
   bind_texture(1, shadow.depth_texture());
   for (std::size_t b = 0; b < meshes.size(); ++b) {
@@ -166,33 +212,52 @@ void MeshRenderer::Impl::draw_textured() {
     cloth.set("colour", colours[b]);
     meshes[b].draw();
   }
-  if (settings.ground) draw_ground();
-  draw_background(settings.background.top, settings.background.bottom);
+  fill_behind_bodies(settings.ground);
+  target.resolve(covered);
 }
 
 void MeshRenderer::Impl::draw_velocity() {
-  target.bind();
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  target.bind_plain();
+  gl.ClearColor(kVelocityBackdrop, kVelocityBackdrop, kVelocityBackdrop, 1.0f);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  if (covered.empty()) return;
+  target.bind_sampled(covered);
   velocity.use();
   bind_texture(0, ramp.name());
   for (const BodyMesh& mesh : meshes) mesh.draw();
-  draw_background(kVelocityBackdrop, kVelocityBackdrop);
+  fill_behind_bodies(false);
+  target.resolve(covered);
 }
 
-void MeshRenderer::Impl::draw_ground() const {
-  ground.use();
+// The shadow multiplies the ground that is already there.
+void MeshRenderer::Impl::draw_shade() const {
+  target.bind_plain();
+  shade.use();
   bind_texture(0, shadow.ground_texture());
+  gl.Enable(GL_BLEND);
+  draw_ground_square();
+  gl.Disable(GL_BLEND);
+}
+
+// Samples that no body took, and those where the ground hides one, show the plain picture.
+void MeshRenderer::Impl::fill_behind_bodies(bool behind_ground) const {
+  bind_texture(0, target.plain_texture());
+  if (behind_ground) {
+    copy_ground.use();
+    draw_ground_square();
+  }
+  copy.use();
+  draw_screen();
+}
+
+void MeshRenderer::Impl::draw_ground_square() const {
   gl.BindVertexArray(no_vertices.name());
   gl.Enable(GL_CULL_FACE);  // from below there is no ground
   gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   gl.Disable(GL_CULL_FACE);
 }
 
-void MeshRenderer::Impl::draw_background(const Eigen::Vector3f& top, const Eigen::Vector3f& bottom) const {
-  background.use();
-  background.set("top", top);
-  background.set("bottom", bottom);
+void MeshRenderer::Impl::draw_screen() const {
   gl.BindVertexArray(no_vertices.name());
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -21,8 +21,8 @@ struct DrawnBody {
 
 /// What holds for every frame of a run and is known before the first one is drawn.
 struct RunBounds {
-  Eigen::AlignedBox3d box;    // [m]   all positions of all frames: fits the camera, the ground and the shadow map
-  double max_velocity = 1.0;  // [m/s] largest |component| of all frames: the velocity view's scale when not given
+  Eigen::AlignedBox3d box;      // [m]   all positions of all frames: fits the camera, the ground and the shadow map
+  double velocity_scale = 1.0;  // [m/s] v_max of the velocity view when the settings give none
 };
 
 /// An OSMesa context with the run's meshes and textures in it. Not thread-safe: use it from the thread that made it.

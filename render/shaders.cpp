@@ -41,15 +41,18 @@ out vec4 pixel;
 const vec3 kKey = vec3(0.98, 0.94, 0.88);
 const vec3 kSky = vec3(0.40, 0.43, 0.48);
 const vec3 kGroundBounce = vec3(0.27, 0.25, 0.23);
-const int kTaps = 6;
-const vec2 kDisc[6] = vec2[](vec2(0.289, 0.000), vec2(-0.369, 0.338), vec2(0.056, -0.643),
-                             vec2(0.465, 0.606), vec2(-0.853, -0.151), vec2(0.808, -0.513));
+// The outer four taps of the disc tell whether the other four are needed.
+const int kOuter = 4, kTaps = 8;
+const vec2 kDisc[8] = vec2[](vec2(0.92, 0.38), vec2(-0.38, 0.92), vec2(-0.92, -0.38), vec2(0.38, -0.92),
+                             vec2(0.35, 0.35), vec2(-0.35, 0.35), vec2(-0.35, -0.35), vec2(0.35, -0.35));
 
 float key_visibility(vec3 lit_side) {
   vec3 c = (light_texture * vec4(world + lit_side * shadow_offset, 1.0)).xyz;
   float sum = 0.0;
-  for (int i = 0; i < kTaps; ++i) sum += texture(shadow_map, vec3(c.xy + kDisc[i] * shadow_blur, c.z));
-  return sum / float(kTaps);
+  for (int i = 0; i < kOuter; ++i) sum += texture(shadow_map, vec3(c.xy + kDisc[i] * shadow_blur, c.z));
+  int taps = sum > 0.01 && sum < 3.99 ? kTaps : kOuter;
+  for (int i = kOuter; i < taps; ++i) sum += texture(shadow_map, vec3(c.xy + kDisc[i] * shadow_blur, c.z));
+  return sum / float(taps);
 }
 
 void main() {
@@ -123,51 +126,68 @@ void main() {
 }
 )";
 
-const char* const kBackgroundFragment = R"(#version 330 core
-in vec2 place;
+const char* const kGradient = R"(
 uniform vec3 top;
 uniform vec3 bottom;
+uniform float frame_height;  // [pixel]
+
+vec3 gradient() { return mix(bottom, top, smoothstep(0.0, frame_height, gl_FragCoord.y)); }
+
+// Steps of 1/255 in a wide gradient show as bands: noise of one such step hides them.
+vec4 dithered(vec3 colour) {
+  float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))) - 0.5;
+  return vec4(colour * (1.0 + noise * 2.2 / 255.0), 1.0);
+}
+)";
+
+const char* const kBackgroundFragment = R"(#version 330 core
+vec3 gradient();
+vec4 dithered(vec3 colour);
 out vec4 pixel;
 
-void main() {
-  pixel = vec4(mix(bottom, top, smoothstep(-1.0, 1.0, place.y)), 1.0);
-}
+void main() { pixel = dithered(gradient()); }
 )";
 
 const char* const kGroundVertex = R"(#version 330 core
 uniform mat4 view_projection;
-uniform vec3 centre;        // [m]
-uniform vec3 patch_u;       // [1/m] world -> shadow patch, in [-1, 1]
-uniform vec3 patch_v;
-uniform float extent;       // [m]
-out vec2 away;              // from the centre, in extents
-out vec2 patch_place;       // in the patch's texture
+uniform vec3 centre;    // [m]
+uniform vec3 half_u;    // [m]
+uniform vec3 half_v;
+out vec2 place;         // in [-1, 1]
 
 void main() {
-  away = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? 1.0 : -1.0);
-  vec3 offset = vec3(away.x, 0.0, away.y) * extent;
-  patch_place = 0.5 + 0.5 * vec2(dot(offset, patch_u), dot(offset, patch_v));
-  gl_Position = view_projection * vec4(centre + offset, 1.0);
+  place = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
+  gl_Position = view_projection * vec4(centre + place.x * half_u + place.y * half_v, 1.0);
 }
 )";
 
 const char* const kGroundFragment = R"(#version 330 core
-in vec2 away;
-in vec2 patch_place;
-uniform sampler2D occlusion;
-uniform vec3 top;
-uniform vec3 bottom;
+vec3 gradient();
+vec4 dithered(vec3 colour);
+in vec2 place;
 uniform vec3 floor_colour;
-uniform float frame_height;  // [pixel]
-uniform vec3 shadow_tint;    // what is left of the light in full shadow
 out vec4 pixel;
 
 void main() {
-  float height = smoothstep(0.0, frame_height, gl_FragCoord.y);
-  float near = max(1.0 - dot(away, away), 0.0);
-  vec3 colour = mix(mix(bottom, top, height), floor_colour, near * near * near);
-  pixel = vec4(colour * mix(vec3(1.0), shadow_tint, texture(occlusion, patch_place).r), 1.0);
+  float near = max(1.0 - dot(place, place), 0.0);
+  pixel = dithered(mix(gradient(), floor_colour, near * near * near));
 }
+)";
+
+const char* const kShadeFragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D occlusion;
+uniform vec3 shadow_tint;  // what is left of the light in full shadow
+out vec4 pixel;
+
+void main() { pixel = vec4(mix(vec3(1.0), shadow_tint, texture(occlusion, 0.5 + 0.5 * place).r), 1.0); }
+)";
+
+const char* const kCopyFragment = R"(#version 330 core
+uniform sampler2D picture;
+out vec4 pixel;
+
+void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0); }
 )";
 
 const char* const kDepthVertex = R"(#version 330 core
@@ -191,8 +211,8 @@ uniform vec3 light_size;      // [m]
 uniform float spread;
 out vec4 pixel;
 
-const int kSearchTaps = 12;
-const int kTaps = 24;
+const int kSearchTaps = 10;
+const int kTaps = 20;
 
 // Vogel's spiral: n points spread evenly over the unit disc.
 vec2 disc(int i, int n, float turn) {
