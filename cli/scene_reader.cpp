@@ -16,7 +16,7 @@ constexpr int format_version = 1;
 
 void read_version(MapReader& map) {
   const Node& node = map.require("billow");
-  if (!is_word(node, std::to_string(format_version)))
+  if (node.quoted || !is_word(node, std::to_string(format_version)))
     fail_at(node.where, fmt::format("billow, the version of the scene format, must be {0}: this billow reads version "
                                     "{0} only",
                                     format_version));

@@ -140,9 +140,7 @@ int read_choice(const Node& node, std::string_view name, const std::vector<std::
   return static_cast<int>(found - choices.begin());
 }
 
-bool is_word(const Node& node, std::string_view word) {
-  return node.kind == Node::Kind::scalar && !node.quoted && node.text == word;
-}
+bool is_word(const Node& node, std::string_view word) { return node.kind == Node::Kind::scalar && node.text == word; }
 
 NodePtr record_of(double value) { return make_scalar(shortest(value)); }
 
@@ -210,7 +208,8 @@ int MapReader::integer(std::string_view key, std::optional<int> fallback) {
 
 bool MapReader::boolean(std::string_view key, bool fallback) {
   const Node* node = find(key);
-  if (node && !is_word(*node, "true") && !is_word(*node, "false")) fail_kind(*node, key, "true or false");
+  if (node && (node->quoted || (!is_word(*node, "true") && !is_word(*node, "false"))))
+    fail_kind(*node, key, "true or false");
   const bool value = node ? is_word(*node, "true") : fallback;
   record(key, make_scalar(value ? "true" : "false"));
   return value;

@@ -50,7 +50,7 @@ Eigen::Vector3d read_vector(const Node& node, std::string_view name, const Range
 const std::vector<NodePtr>& read_list(const Node& node, std::string_view name);
 /// The place of a word among `choices`.
 int read_choice(const Node& node, std::string_view name, const std::vector<std::string_view>& choices);
-/// True for the unquoted word `word`.
+/// True for the word `word`, in quotes or not.
 bool is_word(const Node& node, std::string_view word);
 
 NodePtr record_of(double value);

@@ -188,6 +188,15 @@ TEST(SceneFaults, Pairs) {
   });
 }
 
+TEST(SceneFaults, QuotesAreFineAroundWordsOnly) {
+  expect_messages({
+      {"method: fb_euler", "method: \"fb_euler\"", ""},
+      {"step: auto", "step: 'auto'", ""},
+      {"strip: {step: 0.01}", "strip: 'none'", ""},
+      {"samples: 4", "samples: 4\n  legend: 'true'", "scene.yaml:21:11: legend must be true or false, not \"true\""},
+  });
+}
+
 // Words that are not in an enumeration.
 TEST(SceneFaults, Words) {
   expect_messages({
