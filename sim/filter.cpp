@@ -10,6 +10,8 @@
 
 namespace billow::sim {
 
+std::string_view name(FilterTarget target) { return target == FilterTarget::velocity ? "velocity" : "force"; }
+
 namespace {
 
 using Pair = std::pair<int, int>;
@@ -25,7 +27,11 @@ std::vector<Pair> spring_neighbours(const Structure& structure) {
   return pairs;
 }
 
-// All pairs of one body closer than `radius` [m] at rest: a sweep along x.
+// A regular cloth has neighbours at exactly a round radius; this share more lets none of them come and go with the
+// rounding of a mesh file's decimals.
+constexpr double radius_slack = 1e-4;
+
+// All pairs of one body within `radius` [m] at rest: a sweep along x.
 void append_pairs_within(const Structure& structure, const Body& body, double radius, std::vector<Pair>& pairs) {
   std::vector<int> order(body.particles);
   std::iota(order.begin(), order.end(), body.first_particle);
@@ -46,7 +52,7 @@ std::vector<Pair> neighbour_pairs(const Structure& structure, const FilterOption
     pairs = spring_neighbours(structure);
   else
     for (const Body& body : structure.body)
-      append_pairs_within(structure, body, options.radius * body.mean_rest_length, pairs);
+      append_pairs_within(structure, body, (1.0 + radius_slack) * options.radius * body.mean_rest_length, pairs);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
@@ -69,8 +75,12 @@ void check(const Structure& structure, const FilterOptions& o) {
   require(o.radius > 0.0, "the filter's radius must be positive");
   require(o.lambda_scale.size() == 0 || o.lambda_scale.size() == structure.particles(),
           "the filter's lambda_scale needs one value per particle");
-  require(o.lambda_scale.size() == 0 || o.lambda_scale.minCoeff() > 0.0, "lambda must be positive at every particle");
-  for (const auto& [time, factor] : o.lambda_keys) require(factor > 0.0, "lambda must be positive at every time");
+  require((o.lambda_scale.array() > 0.0).all() && o.lambda_scale.allFinite(),
+          "lambda must be a positive number at every particle");
+  for (const auto& [time, factor] : o.lambda_keys)
+    require(factor > 0.0 && std::isfinite(factor), "lambda must be a positive number at every time");
+  for (std::size_t k = 1; k < o.lambda_keys.size(); ++k)
+    require(o.lambda_keys[k - 1].first < o.lambda_keys[k].first, "the filter's times for lambda must be ascending");
 }
 
 // Linear between keys, constant outside them.
