@@ -45,6 +45,7 @@ FrameRange parse_range(const std::string& text) {
 struct Request {
   RenderOptions render;
   SceneOptions scene;
+  StabilityOptions stability;
   CompareOptions compare;
   std::vector<std::string> overrides;
   std::string frames;
@@ -96,6 +97,21 @@ void add_scene_command(CLI::App& app, Request& r, const std::string& name, const
   });
 }
 
+void add_stability(CLI::App& app, Request& r) {
+  CLI::App& c =
+      *app.add_subcommand("stability", "Print k0 and every method's step limits, with and without the filter");
+  add_scene_options(c, r.stability.scene.scene, r);
+  c.add_flag("--json", r.stability.scene.json, "Print JSON");
+  c.add_flag("--measured", r.stability.measured, "Also measure the limits on whole non-linear runs (slow)");
+  c.add_option("--at", r.stability.time, "Linearise the state that the scene reaches at this time (default: at rest)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS");
+  c.final_callback([&r] {
+    for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
+    r.command = [&r] { return stability_command(r.stability); };
+  });
+}
+
 [[maybe_unused]] void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
@@ -113,6 +129,7 @@ void add_commands(CLI::App& app, Request& r) {
   add_scene_command(app, r, "check", "Validate a scene without simulating it; print it with every default", false,
                     check_command);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
+  add_stability(app, r);
   // COMPARE add_compare(app, r);
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
     r.command = doctor_command;

@@ -33,6 +33,13 @@ struct SceneOptions {
 int check_command(const SceneOptions& options);
 int structure_command(const SceneOptions& options);
 
+struct StabilityOptions {
+  SceneOptions scene;
+  bool measured = false;  // also bisect on whole non-linear runs: slow
+  double time = 0.0;      // [s] linearise the state that the scene reaches then
+};
+int stability_command(const StabilityOptions& options);
+
 struct CompareOptions {
   std::filesystem::path a, b;
   std::filesystem::path difference;  // empty: none written

@@ -169,7 +169,7 @@ class Film {
     std::optional<render::VelocityStrip> strip;
     if (scene_.strip)
       strip.emplace(folder_.strip(), strip_order(scene_, simulation_.structure()),
-                    scene_.render.velocity_range.value_or(bounds_.max_velocity));
+                    scene_.render.velocity_range.value_or(bounds_.velocity_scale));
     const auto solver = simulation_.make_solver(choice_);
     try {
       run_timeline(*solver, strip ? &*strip : nullptr);
@@ -258,7 +258,7 @@ long frame_count(const Scene& scene) {
 
 Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress) {
   Survey result;
-  result.bounds.max_velocity = 0.0;
+  result.bounds.velocity_scale = 0.0;
   const Stopwatch watch(result.seconds);
   const auto solver = simulation.make_solver(choice);
   const long frames = frame_count(scene);
@@ -268,7 +268,8 @@ Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice
     while (const auto sample = timeline.next()) {
       if (interrupted_by() != 0) break;
       const sim::State state = solver->sample(sample->time);
-      result.bounds.max_velocity = std::max(result.bounds.max_velocity, state.velocity.cwiseAbs().maxCoeff());
+      const Eigen::RowVector3d mean_square = state.velocity.colwise().squaredNorm() / state.velocity.rows();
+      result.bounds.velocity_scale = std::max(result.bounds.velocity_scale, 2.0 * std::sqrt(mean_square.maxCoeff()));
       result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().minCoeff()));
       result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().maxCoeff()));
       if (sample->frame) progress.update(*sample->frame, sample->time);
@@ -277,7 +278,7 @@ Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice
     // The film meets the same step and reports it, after writing the frames before it.
   }
   progress.end();
-  if (result.bounds.max_velocity == 0.0) result.bounds.max_velocity = 1.0;
+  if (result.bounds.velocity_scale == 0.0) result.bounds.velocity_scale = 1.0;
   return result;
 }
 

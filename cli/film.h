@@ -49,7 +49,8 @@ struct FilmReport {
   std::optional<std::string> divergence;  // the message, when the run diverged
 };
 
-/// Runs the whole scene once without drawing, to find the box it moves in and its largest velocity component: the
+/// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the
+/// largest root mean square of a component, so that one whipping corner does not grey out all else): the
 /// camera, the shadow and the velocity colours are then the same for every frame, whichever frames are drawn.
 /// A divergence ends the survey early without an error; the film then meets it too.
 Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress);

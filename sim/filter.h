@@ -14,6 +14,9 @@ namespace billow::sim {
 enum class FilterKernel { exponential, gaussian };
 enum class FilterForm { plain, symmetric, conserving };
 enum class FilterTarget { velocity, force };
+/// The target's name as scenes and reports write it.
+std::string_view name(FilterTarget target);
+
 enum class FilterNeighbours { springs, radius };
 enum class FilterDistances { rest, current };
 
