@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFitAzimuth = 0.42;    // [rad] to the right of straight in front (+z)
 constexpr double kFitElevation = 0.20;  // [rad] above the horizon
-constexpr double kFitMargin = 0.86;     // share of the frame that the box may take, either way
+constexpr double kFitMargin = 0.90;     // share of the frame that the box may take, either way
 
 Eigen::Vector3d fit_direction() {
   return {std::cos(kFitElevation) * std::sin(kFitAzimuth), std::sin(kFitElevation),

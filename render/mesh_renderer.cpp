@@ -18,10 +18,10 @@ namespace billow::render {
 namespace {
 
 constexpr float kGroundExtent = 8.0f;                    // [radius] the ground fades out over this
-const Eigen::Vector3f kShadowTint(0.40f, 0.42f, 0.46f);  // light left in full shadow, a little cool
+const Eigen::Vector3f kShadowTint(0.44f, 0.46f, 0.50f);  // light left in full shadow, a little cool
 constexpr float kVelocityBackdrop = 0.82f;               // linear light: neutral, brighter than a cloth at rest
-constexpr float kShadowOffset = 0.006f;                  // [radius]
-constexpr float kShadowBlur = 2.5f;                      // [texel] of the depth map
+constexpr float kShadowOffset = 0.009f;                  // [radius]
+constexpr float kShadowBlur = 4.5f;                      // [texel] of the depth map
 
 Image single_pixel() {
   Image image(1, 1, 3);
@@ -144,6 +144,7 @@ void MeshRenderer::Impl::set_up_bodies() const {
   cloth.set("view_projection", single(stage.view_projection));
   cloth.set("eye", single(stage.camera.eye));
   cloth.set("to_light", single(stage.to_light));
+  cloth.set("to_fill", single(stage.to_fill));
   cloth.set("light_texture", shadow.light_texture());
   cloth.set("shadow_offset", kShadowOffset * static_cast<float>(stage.radius));
   cloth.set("shadow_blur", Eigen::Vector2f(Eigen::Vector2f::Constant(kShadowBlur * Shadow::texel())));

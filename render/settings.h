@@ -23,8 +23,8 @@ struct Camera {
 };
 
 struct Background {
-  Eigen::Vector3f top{0.80f, 0.86f, 0.92f};     // linear-light RGB in [0, 1]
-  Eigen::Vector3f bottom{0.97f, 0.97f, 0.96f};  // linear-light RGB in [0, 1]
+  Eigen::Vector3f top{0.56f, 0.62f, 0.68f};     // linear-light RGB in [0, 1]
+  Eigen::Vector3f bottom{0.86f, 0.85f, 0.83f};  // linear-light RGB in [0, 1]
 };
 
 struct Settings {

@@ -34,17 +34,19 @@ uniform mat4 light_texture;   // world -> (u, v, depth) in the shadow map
 uniform vec3 colour;
 uniform vec3 eye;
 uniform vec3 to_light;
+uniform vec3 to_fill;
 uniform float shadow_offset;  // [m] along the normal, against a surface shadowing itself
 uniform vec2 shadow_blur;     // [texture] radius of the filter disc
 out vec4 pixel;
 
-const vec3 kKey = vec3(0.98, 0.94, 0.88);
-const vec3 kSky = vec3(0.40, 0.43, 0.48);
-const vec3 kGroundBounce = vec3(0.27, 0.25, 0.23);
+const vec3 kKey = vec3(1.30, 1.22, 1.12);
+const vec3 kSky = vec3(0.33, 0.37, 0.43);
+const vec3 kGroundBounce = vec3(0.22, 0.20, 0.18);
+const vec3 kFill = vec3(0.24, 0.26, 0.30);
 // The outer four taps of the disc tell whether the other four are needed.
 const int kOuter = 4, kTaps = 8;
 const vec2 kDisc[8] = vec2[](vec2(0.92, 0.38), vec2(-0.38, 0.92), vec2(-0.92, -0.38), vec2(0.38, -0.92),
-                             vec2(0.35, 0.35), vec2(-0.35, 0.35), vec2(-0.35, -0.35), vec2(0.35, -0.35));
+                             vec2(0.40, 0.10), vec2(-0.10, 0.40), vec2(-0.40, -0.10), vec2(0.10, -0.40));
 
 float key_visibility(vec3 lit_side) {
   vec3 c = (light_texture * vec4(world + lit_side * shadow_offset, 1.0)).xyz;
@@ -64,13 +66,16 @@ void main() {
 
   float facing = dot(n, to_light);
   float visible = key_visibility(facing > 0.0 ? n : -n);
-  // Thin cloth: a wrapped diffuse term on the lit side, and some of the light comes through from behind.
-  float diffuse = max((facing + 0.12) / 1.12, 0.0);
-  float through = 0.22 * max(-facing, 0.0);
-  vec3 ambient = mix(kGroundBounce, kSky, 0.5 + 0.5 * n.y);
+  // Thin cloth lets some of the key light through from behind.
+  vec3 key = kKey * visible * (facing > 0.0 ? facing : -0.22 * facing);
+  // Sky and ground all around, a large soft lamp on the other side, and less of both deep in a fold.
+  float to_eye_facing = max(dot(n, to_eye), 0.0);
+  float fill = 0.5 + 0.5 * dot(n, to_fill);
+  vec3 ambient = mix(kGroundBounce, kSky, 0.5 + 0.5 * n.y) + kFill * fill * fill;
+  ambient *= 0.55 + 0.45 * to_eye_facing;
 
   // Sheen: fibres that stand off the cloth catch light at grazing angles.
-  float grazing = 1.0 - max(dot(n, to_eye), 0.0);
+  float grazing = 1.0 - to_eye_facing;
   float sheen = 0.10 * grazing * grazing * grazing;
   float half_facing = max(dot(n, normalize(to_light + to_eye)), 0.0);
   float gloss = half_facing * half_facing;
@@ -78,8 +83,7 @@ void main() {
   gloss *= gloss;
   gloss = 0.05 * gloss * gloss * visible * max(facing, 0.0);
 
-  vec3 light = kKey * visible * (diffuse + through) + ambient;
-  vec3 shaded = albedo * light + (sheen * ambient + gloss * kKey);
+  vec3 shaded = albedo * (key + ambient) + sheen * ambient + gloss * kKey;
   pixel = vec4(shaded / (1.0 + 0.12 * shaded * shaded), 1.0);  // a soft shoulder keeps white cloth from clipping
 }
 )";

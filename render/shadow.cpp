@@ -6,7 +6,7 @@
 namespace billow::render {
 namespace {
 
-constexpr int kDepthSize = 1024;  // [texel] each way
+constexpr int kDepthSize = 512;   // [texel] each way
 constexpr int kGroundSize = 144;  // [texel] each way; the ground's shadow is soft
 
 GlObject make_target(const Gl& gl, GLenum attachment, const GlObject& texture) {

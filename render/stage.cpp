@@ -9,9 +9,10 @@
 namespace billow::render {
 namespace {
 
-constexpr double kGroundGap = 0.02;     // the ground lies this share of the box's diagonal below it
-constexpr double kGroundExtent = 12.0;  // [radius] how far the drawn ground reaches
-constexpr double kLightLeft = 0.55, kLightUp = 1.25, kLightToCamera = 0.60;
+constexpr double kGroundGap = 0.02;                  // the ground lies this share of the box's diagonal below it
+constexpr double kGroundExtent = 12.0;               // [radius] how far the drawn ground reaches
+const Eigen::Vector3d kKeyLight(-0.95, 1.20, 0.55);  // right, up, towards the camera
+const Eigen::Vector3d kFillLight(1.00, 0.25, 0.40);
 
 Eigen::AlignedBox3d sound_box(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return {Eigen::Vector3d::Constant(-0.5), Eigen::Vector3d::Constant(0.5)};
@@ -19,11 +20,12 @@ Eigen::AlignedBox3d sound_box(const Eigen::AlignedBox3d& box) {
   return {box.min() - least, box.max() + least};
 }
 
-// Relative to the camera, so that whatever it looks at is lit from the front and the side.
-Eigen::Vector3d light_direction(const Eigen::Matrix4d& view) {
+// Lights keep their place relative to the camera, so that whatever it looks at is lit from the front and the sides.
+Eigen::Vector3d direction_from(const Eigen::Matrix4d& view, const Eigen::Vector3d& right_up_back) {
   const Eigen::Vector3d right = view.row(0).head<3>().transpose();
-  const Eigen::Vector3d to_camera = right.cross(Eigen::Vector3d::UnitY());
-  return (-kLightLeft * right + kLightUp * Eigen::Vector3d::UnitY() + kLightToCamera * to_camera).normalized();
+  const Eigen::Vector3d back = right.cross(Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+  return (right_up_back.x() * right + right_up_back.y() * up + right_up_back.z() * back).normalized();
 }
 
 Eigen::Matrix4d light_view(const Eigen::Vector3d& to_light) {
@@ -74,7 +76,8 @@ Stage make_stage(const Settings& settings, const Eigen::AlignedBox3d& bounds) {
   stage.ground_height = ground_height(settings, box);
   const Eigen::Matrix4d view = view_matrix(stage.camera);
   stage.view_projection = camera_projection(settings, stage, box) * view;
-  stage.to_light = light_direction(view);
+  stage.to_light = direction_from(view, kKeyLight);
+  stage.to_fill = direction_from(view, kFillLight);
   const Eigen::Matrix4d to_light_view = light_view(stage.to_light);
   const Eigen::AlignedBox3d light_box = transformed_box(box, to_light_view);
   stage.light_projection = orthographic(light_box) * to_light_view;

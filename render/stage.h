@@ -18,6 +18,7 @@ struct Stage {
   Camera camera;                     // fitted where the settings ask for it
   Eigen::Matrix4d view_projection;   // world -> clip
   Eigen::Vector3d to_light;          // unit, world -> key light: over the camera's left shoulder
+  Eigen::Vector3d to_fill;           // unit, world -> fill light, which casts no shadow: to the camera's right
   Eigen::Matrix4d light_projection;  // world -> the key light's clip cube, which holds the bodies
   Eigen::Vector3d light_size;        // [m] the clip cube's sides: across, up, and along the light
   double radius;                     // [m] half the diagonal of the bodies' box: the scene's unit of length
