@@ -14,6 +14,10 @@ ConjugateGradientResult conjugate_gradient(const ParticleOperator& multiply, con
                                            Eigen::MatrixX3d& x) {
   ConjugateGradientResult result;
   const double target = tolerance * tolerance * b.squaredNorm();
+  if (b.squaredNorm() == 0.0) {  // no residual is small relative to it, so a guess would never be near enough
+    x.setZero();
+    return {0, true};
+  }
   Eigen::MatrixX3d product, z, r = b;
   multiply(x, product);
   r -= product;
