@@ -34,6 +34,7 @@ class Reader {
   template <typename T>
   void take(T* values, std::size_t count) {
     if (count > rest_.size() / sizeof(T)) fail();
+    if (count == 0) return;  // an empty array may have no address
     std::memcpy(static_cast<void*>(values), rest_.data(), count * sizeof(T));
     rest_.remove_prefix(count * sizeof(T));
   }
