@@ -43,7 +43,9 @@ double stiffness_of(SpringKind kind, const ClothOptions& options) {
 }
 
 void add_springs(const Mesh& mesh, const ClothOptions& options, Structure& cloth) {
-  const std::vector<SpringPair> pairs = cloth_springs(mesh);
+  const bool interlaced = options.spring_model == SpringModel::choi_ko;
+  const std::vector<SpringPair> pairs =
+      cloth_springs(mesh, interlaced ? BendLines::edges_and_diagonals : BendLines::edges);
   const Eigen::Index m = static_cast<Eigen::Index>(pairs.size());
   cloth.spring.resize(m, 2);
   cloth.rest_length.resize(m);

@@ -65,17 +65,18 @@ std::vector<Pair> shear_pairs(const Mesh& mesh, const std::vector<Edge>& edges) 
   return shear;
 }
 
-// What surrounds one vertex: its neighbours along edges, and the pairs of them that a face already holds in place.
+// What surrounds one vertex: its neighbours along links, and the pairs of them that a face already holds in place.
 struct Ring {
   std::vector<int> neighbour;
   std::vector<Pair> joined;
 };
 
-std::vector<Ring> rings(const Mesh& mesh, const std::vector<Edge>& edges) {
+// `links` are the lines that bending may run along.
+std::vector<Ring> rings(const Mesh& mesh, const std::vector<Pair>& links) {
   std::vector<Ring> ring(mesh.vertices());
-  for (const Edge& edge : edges) {
-    ring[edge.first].neighbour.push_back(edge.second);
-    ring[edge.second].neighbour.push_back(edge.first);
+  for (const auto& [first, second] : links) {
+    ring[first].neighbour.push_back(second);
+    ring[second].neighbour.push_back(first);
   }
   for (const Face& face : mesh.face) {
     const int corners = corner_count(face);
@@ -124,8 +125,8 @@ void add_bends(const Mesh& mesh, int vertex, const Ring& ring, std::vector<Pair>
   }
 }
 
-std::vector<Pair> bend_pairs(const Mesh& mesh, const std::vector<Edge>& edges) {
-  const std::vector<Ring> ring = rings(mesh, edges);
+std::vector<Pair> bend_pairs(const Mesh& mesh, const std::vector<Pair>& links) {
+  const std::vector<Ring> ring = rings(mesh, links);
   std::vector<Pair> bend;
   for (int vertex = 0; vertex < mesh.vertices(); ++vertex) add_bends(mesh, vertex, ring[vertex], bend);
   sort_and_unite(bend);
@@ -134,12 +135,18 @@ std::vector<Pair> bend_pairs(const Mesh& mesh, const std::vector<Edge>& edges) {
 
 }  // namespace
 
-std::vector<SpringPair> cloth_springs(const Mesh& mesh) {
+std::vector<SpringPair> cloth_springs(const Mesh& mesh, BendLines bend_lines) {
   const std::vector<Edge> edges = distinct_edges(mesh);
   std::vector<Pair> structural;
   for (const Edge& edge : edges) structural.emplace_back(edge.first, edge.second);
   const std::vector<Pair> shear = without(shear_pairs(mesh, edges), structural);
-  const std::vector<Pair> bend = without(without(bend_pairs(mesh, edges), structural), shear);
+  std::vector<Pair> bend = bend_pairs(mesh, structural);
+  if (bend_lines == BendLines::edges_and_diagonals) {
+    const std::vector<Pair> diagonal = bend_pairs(mesh, shear);
+    bend.insert(bend.end(), diagonal.begin(), diagonal.end());
+    sort_and_unite(bend);
+  }
+  bend = without(without(bend, structural), shear);
 
   std::vector<SpringPair> springs;
   springs.reserve(structural.size() + shear.size() + bend.size());

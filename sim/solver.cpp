@@ -100,15 +100,23 @@ void Solver::check_divergence() const {
 void Solver::report_divergence() const {
   const WorstSpring worst = worst_spring(structure_, state_);
   const int i = structure_.spring(worst.spring, 0), j = structure_.spring(worst.spring, 1);
-  const std::string limit = options_.limit ? fmt::format("the limit for {}{} is {:.4g} s", name(options_.method),
-                                                         options_.filter ? " with this filter" : "", *options_.limit)
-                                           : fmt::format("no step limit is known for {} here", name(options_.method));
   throw DivergenceError(fmt::format(
-      "the simulation diverged at step {} (t = {:.4f} s): {} is the fastest; {} spring {} ({} to {}) is "
-      "stretched by {:.3g} times its rest length; the step was {:.4g} s and {}; use 'step: auto' or a "
-      "smaller step",
+      "the simulation diverged at step {} (t = {:.4f} s): {} is the fastest; {} spring {} ({} to {}) is stretched by "
+      "{:.3g} times its rest length; the step was {:.4g} s and {}",
       steps_, state_.time, particle_name(structure_, fastest_particle(state_)), name(structure_.kind[worst.spring]),
-      worst.spring, particle_name(structure_, i), particle_name(structure_, j), worst.strain, options_.step, limit));
+      worst.spring, particle_name(structure_, i), particle_name(structure_, j), worst.strain, options_.step, advice()));
+}
+
+// A step beyond the limit is the usual cause; a run that diverges within it was pulled apart.
+std::string Solver::advice() const {
+  const std::string scheme = fmt::format("{}{}", name(options_.method), options_.filter ? " with this filter" : "");
+  if (!options_.limit) return fmt::format("{} has no known limit here; use a smaller step", scheme);
+  if (options_.step > *options_.limit)
+    return fmt::format("the limit for {} is {:.4g} s; use 'step: auto' or a smaller step", scheme, *options_.limit);
+  return fmt::format(
+      "the limit for {} is {:.4g} s, so the springs are too soft for what pulls at them: raise the stiffness or lower "
+      "the mass",
+      scheme, *options_.limit);
 }
 
 State Solver::sample(double time) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "sim/filter.h"
 #include "sim/filtered_step.h"
@@ -41,6 +42,7 @@ class Solver {
  private:
   void check_divergence() const;
   [[noreturn]] void report_divergence() const;
+  std::string advice() const;
 
   const Structure& structure_;
   SolverOptions options_;
