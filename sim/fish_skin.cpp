@@ -1,0 +1,96 @@
+// Weights of the particles in a travelling frame.
+#include "sim/fish_skin.h"
+
+#include <array>
+
+#include "sim/cloth.h"
+#include "sim/cubic_spline.h"
+
+namespace billow::sim {
+namespace {
+
+constexpr int stations = fish_rings + 2;
+using Weights = Eigen::Matrix<double, 1, fish_particles>;
+
+/// A station's frame as linear combinations of the particles. At rest, in a fish of length 1, `up` and `side` come to
+/// the unit vectors +y and +z.
+struct Frame {
+  Weights middle = Weights::Zero(), up = Weights::Zero(), side = Weights::Zero();
+};
+
+double rest_height(const Eigen::MatrixX3d& rest, const Weights& weights) { return (weights * rest).y(); }
+double rest_width(const Eigen::MatrixX3d& rest, const Weights& weights) { return (weights * rest).z(); }
+
+Frame ring_frame(int ring, const Eigen::MatrixX3d& rest) {
+  Frame frame;
+  for (const Side side : {Side::left, Side::right})
+    for (const Level level : {Level::dorsal, Level::ventral}) {
+      const int node = fish_node(ring, side, level);
+      frame.middle(node) = 0.25;
+      frame.up(node) = level == Level::dorsal ? 1.0 : -1.0;
+      frame.side(node) = side == Side::right ? 1.0 : -1.0;
+    }
+  frame.up /= rest_height(rest, frame.up);
+  frame.side /= rest_width(rest, frame.side);
+  return frame;
+}
+
+// The snout and the tail's tips are no rings: what they cannot tell they take from the ring beside them.
+std::array<Frame, stations> station_frames(const Eigen::MatrixX3d& rest) {
+  std::array<Frame, stations> frame;
+  for (int r = 0; r < fish_rings; ++r) frame[r + 1] = ring_frame(r, rest);
+  frame.front() = frame[1];
+  frame.front().middle = Weights::Unit(fish_snout());
+  Frame& tail = frame.back();
+  const int top = fish_tail_tip(Level::dorsal), bottom = fish_tail_tip(Level::ventral);
+  tail = frame[fish_rings];
+  tail.middle = 0.5 * (Weights::Unit(top) + Weights::Unit(bottom));
+  tail.up = Weights::Unit(top) - Weights::Unit(bottom);
+  tail.up /= rest_height(rest, tail.up);
+  return frame;
+}
+
+// Positions at rest in the body axes of a fish of length 1.
+Eigen::MatrixX3d unit_rest() {
+  FishOptions unit;
+  unit.length = 1.0;
+  return build_fish(unit).rest_position;
+}
+
+/// Where along the body, how high above its curve and how far to the right.
+Weights point_weights(const Eigen::RowVector3d& point, const std::array<Frame, stations>& frame,
+                      const Eigen::MatrixX3d& rest) {
+  const auto behind = fish_stations();
+  const Eigen::VectorXd share =
+      spline_weights(Eigen::VectorXd::Map(behind.data(), static_cast<Eigen::Index>(behind.size())), 0.5 - point.x());
+  Weights middle = Weights::Zero(), up = Weights::Zero(), side = Weights::Zero();
+  for (int k = 0; k < stations; ++k) {
+    middle += share(k) * frame[k].middle;
+    up += share(k) * frame[k].up;
+    side += share(k) * frame[k].side;
+  }
+  const Eigen::RowVector3d origin = middle * rest;
+  return middle + (point.y() - origin.y()) * up + (point.z() - origin.z()) * side;
+}
+
+}  // namespace
+
+Skin bind_fish_skin(const Mesh& mesh) {
+  const Eigen::MatrixX3d rest = unit_rest();
+  const std::array<Frame, stations> frame = station_frames(rest);
+  Skin skin;
+  skin.surface = build_surface(mesh);
+  skin.weight.resize(mesh.vertices(), fish_particles);
+  for (int v = 0; v < mesh.vertices(); ++v)
+    skin.weight.row(v) = point_weights(mesh.position.row(v), frame, rest).cast<float>();
+  return skin;
+}
+
+Skin plain_fish_skin() {
+  Mesh mesh;
+  mesh.position = unit_rest();
+  mesh.face = fish_faces();
+  return {build_surface(mesh), {}};
+}
+
+}  // namespace billow::sim
