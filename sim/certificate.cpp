@@ -55,7 +55,9 @@ class Trial {
     omega_ = std::sqrt(std::max(k0, 0.0));
     noise_ = structure.inverse_mass.cwiseSign().asDiagonal() * seeded_noise(structure.particles(), certificate.seed);
     noise_ /= std::max(noise_.norm(), 1e-300);
-    start_ = {mode / std::max(mode.norm(), 1e-300) + noise_, Eigen::MatrixX3d::Zero(mode.rows(), 3), 0.0};
+    // Velocities too, for the motions that damping alone acts on. So little that the drift of those on which nothing
+    // acts stays below the rest.
+    start_ = {mode / std::max(mode.norm(), 1e-300) + noise_, 1e-3 * omega_ * noise_, 0.0};
   }
 
   /// sqrt(k0) [1/s]
@@ -130,10 +132,11 @@ CertifiedStep certified_step(const Structure& structure, const Linearisation& li
   } while (stable(high, coarse));
   double share = coarse;
   while (high - low > certificate.step_tolerance * high) {
-    // A short trial can miss slow growth, so the lower end must pass a full one before it is believed.
+    // A short trial can miss slow growth, so the lower end must pass a full one before it is believed. So must smaller
+    // steps: RK4 damps at large steps what grows slowly at small ones.
     if (share < 1.0 && high - low < 0.03 * high) {
       share = 1.0;
-      while (!stable(low, share)) {
+      while (!(stable(low, share) && stable(0.75 * low, share) && stable(0.5 * low, share))) {
         high = low;
         low *= 0.9;
         if (low < 0.04 * unit) return {0.0, false, result.trials};

@@ -17,8 +17,9 @@ struct CertificateOptions {
   double step_tolerance = 5e-4;  // relative width of the final bisection interval
   std::uint64_t seed = 1;
 
-  /// A step whose spectral radius exceeds 1 by more than this grows by over e in half a trial, and counts as unstable.
-  double growth_tolerance() const { return 2.0 / steps; }
+  /// A step whose spectral radius exceeds 1 by more than this counts as unstable: it grows by e^2 in half a trial, and
+  /// over e shows even where the growing motion begins as a small part of the whole.
+  double growth_tolerance() const { return 4.0 / steps; }
 };
 
 /// What a search for the largest stable step found.
@@ -31,8 +32,8 @@ struct CertifiedStep {
 /// The largest h for which the linearised step x, v -> scheme(force = -K x - C v, filter) does not grow. Trials run the
 /// real scheme and filter from the stiffest mode plus noise, and compare the largest norm of the trial's last quarter
 /// with that of its second: twofold at most for a double eigenvalue on the unit circle, so e counts as growth. The
-/// search climbs from a tenth of 2/sqrt(k0) and bisects the first failure. `linearisation` is about `position` (n x
-/// 3), where the filter takes its current distances. `filter` may be null.
+/// search climbs from 0.4 of 2/sqrt(k0), or less where that grows, and bisects the first failure. `linearisation` is
+/// about `position` (n x 3), where the filter takes its current distances. `filter` may be null.
 CertifiedStep certified_step(const Structure& structure, const Linearisation& linearisation,
                              const Eigen::MatrixX3d& position, Method method, const IntegratorOptions& options,
                              const Filter* filter, const CertificateOptions& certificate = {});
