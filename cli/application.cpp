@@ -112,13 +112,13 @@ void add_stability(CLI::App& app, Request& r) {
   });
 }
 
-[[maybe_unused]] void add_compare(CLI::App& app, Request& r) {
+void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
   c.add_option("B", r.compare.b, "Image or folder")->required();
   c.add_option("--diff", r.compare.difference, "Write the difference image")->type_name("FILE");
   c.add_flag("--json", r.compare.json, "Print JSON");
-  c.final_callback([&r] { r.command = [&r] { return 0; }; });
+  c.final_callback([&r] { r.command = [&r] { return compare_command(r.compare); }; });
 }
 
 void add_commands(CLI::App& app, Request& r) {
@@ -130,7 +130,7 @@ void add_commands(CLI::App& app, Request& r) {
                     check_command);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
   add_stability(app, r);
-  // COMPARE add_compare(app, r);
+  add_compare(app, r);
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
     r.command = doctor_command;
   });

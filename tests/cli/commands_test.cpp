@@ -1,0 +1,96 @@
+// The smaller commands from outside.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/scene_files.h"
+#include "tests/support/tool.h"
+
+namespace billow {
+namespace {
+
+using test::run_tool;
+using test::ToolResult;
+using Json = nlohmann::json;
+
+class Commands : public testing::Test {
+ protected:
+  Commands() { folder_.scene(test::base_scene); }
+  ToolResult run(std::vector<std::string> arguments) { return run_tool(arguments, folder_.path()); }
+
+  test::SceneFolder folder_;
+};
+
+TEST_F(Commands, HelpAndVersionSucceed) {
+  EXPECT_EQ(run({"--help"}).status, 0);
+  EXPECT_EQ(run({"render", "--help"}).status, 0);
+  const ToolResult version = run({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.output.rfind("billow ", 0), 0u) << version.output;
+  EXPECT_EQ(run({}).status, 2);
+}
+
+TEST_F(Commands, CheckPrintsASceneThatChecksAgain) {
+  const ToolResult first = run({"check", "scene.yaml"});
+  ASSERT_EQ(first.status, 0) << first.errors;
+  folder_.write("effective.yaml", first.output);
+  const ToolResult second = run({"check", "effective.yaml"});
+  ASSERT_EQ(second.status, 0) << second.errors;
+  EXPECT_EQ(second.output, first.output);
+}
+
+TEST_F(Commands, CheckLocatesAFault) {
+  const ToolResult result = run({"check", "scene.yaml", "-D", "solver.step=-1"});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_EQ(result.errors.rfind("-D solver.step: ", 0), 0u) << result.errors;
+  EXPECT_EQ(run({"check", "nowhere.yaml"}).status, 4);
+}
+
+TEST_F(Commands, StructureListsParticlesAndSprings) {
+  const ToolResult result = run({"structure", "scene.yaml", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json json = Json::parse(result.output);
+  EXPECT_EQ(json["particles"].size(), 9u);
+  EXPECT_EQ(json["springs"].size(), 12u + 8u + 6u);
+  const Json spring = json["springs"][0];
+  for (const char* key : {"i", "j", "rest_length", "stiffness", "kind"}) EXPECT_TRUE(spring.contains(key)) << key;
+  EXPECT_LT(spring["i"], spring["j"]);
+  EXPECT_EQ(run({"structure", "scene.yaml"}).status, 0);
+}
+
+TEST_F(Commands, StabilityGivesEveryMethodsLimits) {
+  const ToolResult result = run({"stability", "scene.yaml", "--json", "-D",
+                                 "solver={method: fb_euler, filter: {target: force, form: conserving}}"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json json = Json::parse(result.output);
+  EXPECT_GT(json["k0"], 0.0);
+  ASSERT_EQ(json["limits"].size(), 6u + 4u);
+  for (const Json& limit : json["limits"])
+    if (limit["method"] == "fb_euler") {
+      const double paper = limit["paper"], certified = limit["certified"];
+      EXPECT_NEAR(certified, paper, 0.01 * paper) << limit;
+    }
+}
+
+TEST_F(Commands, CompareTellsEqualFromDifferent) {
+  const std::string size = "render={size: [64, 48], fps: 10, views: [textured]}";
+  ASSERT_EQ(run({"render", "scene.yaml", "-D", "duration=0.2", "-D", size, "-o", "a", "--progress", "none"}).status, 0);
+  ASSERT_EQ(run({"render", "scene.yaml", "-D", "duration=0.2", "-D", size, "-o", "b", "--progress", "none"}).status, 0);
+  EXPECT_EQ(run({"compare", "a", "b"}).status, 0);
+  const ToolResult different =
+      run({"compare", "a/textured/frame_0001.png", "a/textured/frame_0002.png", "--json", "--diff", "difference.png"});
+  EXPECT_EQ(different.status, 3);
+  EXPECT_EQ(Json::parse(different.output)["same"], false);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "difference.png"));
+  std::filesystem::remove(folder_.path() / "b/textured/frame_0002.png");
+  EXPECT_EQ(run({"compare", "a", "b"}).status, 3);
+  EXPECT_EQ(run({"compare", "a", "nowhere"}).status, 4);
+  EXPECT_EQ(run({"compare", "a", "scene.yaml"}).status, 4);
+}
+
+TEST_F(Commands, DoctorFindsTheRenderer) {
+  const ToolResult result = run({"doctor"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.output.find("llvmpipe"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace billow

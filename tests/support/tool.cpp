@@ -1,0 +1,61 @@
+// Child processes with their output in files.
+#include "tests/support/tool.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace billow::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void redirect(const fs::path& file, int descriptor) {
+  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  dup2(opened, descriptor);
+  close(opened);
+}
+
+[[noreturn]] void become_tool(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
+                              const fs::path& err) {
+  std::vector<char*> argv{const_cast<char*>("billow")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  redirect(out, STDOUT_FILENO);
+  redirect(err, STDERR_FILENO);
+  if (chdir(folder.c_str()) == 0) execv(BILLOW_TOOL, argv.data());
+  _exit(127);
+}
+
+}  // namespace
+
+ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& folder, double interrupt_after) {
+  const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
+  const pid_t child = fork();
+  if (child == 0) become_tool(arguments, folder, out, err);
+  if (interrupt_after >= 0.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ToolResult result{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(out), read_text(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return result;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace billow::test

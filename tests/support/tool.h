@@ -1,0 +1,21 @@
+// Runs the billow tool as a user would.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace billow::test {
+
+struct ToolResult {
+  int status = -1;  // exit status, or 128 + signal
+  std::string output, errors;
+};
+
+/// Runs the tool with `arguments` in `folder` and waits. With `interrupt_after` [s] >= 0 sends SIGINT then.
+ToolResult run_tool(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                    double interrupt_after = -1.0);
+
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace billow::test
