@@ -159,7 +159,8 @@ Filter::Filter(const Structure& structure, FilterOptions options)
     const auto [i, j] = pairs[e];
     pattern_.distance(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
   }
-  if (options_.form == FilterForm::conserving) strength_ = 1.0 / (1.0 - std::min(0.0, smallest_response()));
+  strength_ = Eigen::VectorXd::Ones(structure.particles());
+  if (options_.form == FilterForm::conserving) keep_spectrum_positive();
   if (constant_weights()) rest_weights_ = compute_weights(nullptr, 0.0);
 }
 
@@ -189,33 +190,42 @@ Filter::Weights Filter::compute_weights(const Eigen::MatrixX3d* position, double
   return weights;
 }
 
-// F <- (1 - strength) I + strength F
+// F <- (1 - strength) I + strength F, body by body
 void Filter::soften(Weights& weights) const {
-  weights.neighbour *= strength_;
-  weights.self = (1.0 - strength_) + strength_ * weights.self.array();
+  for (int i = 0; i < structure_.particles(); ++i) {
+    weights.neighbour.segment(pattern_.first[i], pattern_.first[i + 1] - pattern_.first[i]) *= strength_(i);
+    weights.self(i) = (1.0 - strength_(i)) + strength_(i) * weights.self(i);
+  }
 }
 
-// The smallest eigenvalue of F at rest where it filters most, by power iteration on I - F in the masses' inner product,
-// three vectors at a time. A thousandth is added for what the iteration has not reached.
-double Filter::smallest_response() const {
+// Each body's smallest eigenvalue of F at rest where it filters most, by power iteration on I - F in the masses' inner
+// product, three vectors at a time. A thousandth is added for what the iteration has not reached.
+void Filter::keep_spectrum_positive() {
   double strongest = 0.0;  // the time of the smallest lambda
   for (const auto& [time, factor] : options_.lambda_keys)
     if (factor < key_factor(options_.lambda_keys, strongest)) strongest = time;
   const Weights weights = compute_weights(nullptr, strongest);
   const Eigen::VectorXd free = structure_.inverse_mass.cwiseSign();
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(structure_.body.size());
   Eigen::MatrixX3d v = free.asDiagonal() * seeded_noise(structure_.particles(), 1);
-  double largest = 0.0;
   for (int k = 0; k < 500; ++k) {
     const Eigen::MatrixX3d before = v;
     apply_once(weights, v);
     v = free.asDiagonal() * (before - v);
-    const Eigen::RowVector3d square = before.cwiseProduct(structure_.mass.asDiagonal() * before).colwise().sum();
-    const Eigen::RowVector3d product = before.cwiseProduct(structure_.mass.asDiagonal() * v).colwise().sum();
-    if (!(square.minCoeff() > 0.0)) break;  // nothing is exchanged at all
-    largest = product.cwiseQuotient(square).maxCoeff();
-    v /= std::max(v.norm(), 1e-300);
+    const Eigen::MatrixX3d weighted = structure_.mass.asDiagonal() * before;
+    for (std::size_t b = 0; b < structure_.body.size(); ++b) {
+      const auto rows = Eigen::seqN(structure_.body[b].first_particle, structure_.body[b].particles);
+      const Eigen::RowVector3d square =
+          before(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
+      const Eigen::RowVector3d product = v(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
+      if (!(square.minCoeff() > 0.0)) continue;  // nothing is exchanged at all
+      largest(b) = product.cwiseQuotient(square).maxCoeff();
+      v(rows, Eigen::all) /= std::max(v(rows, Eigen::all).norm(), 1e-300);
+    }
   }
-  return 1.0 - largest - 1e-3;
+  for (std::size_t b = 0; b < structure_.body.size(); ++b)
+    strength_.segment(structure_.body[b].first_particle, structure_.body[b].particles)
+        .setConstant(1.0 / std::max(1.0, largest(b) + 1e-3));
 }
 
 // Row i gives m_i b_ij of its momentum to j and takes m_j b_ji. With the smaller of the two both ways nothing is lost,

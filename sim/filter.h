@@ -36,10 +36,10 @@ struct FilterOptions {
 /// F of the paper's section 4.1 with weights normalised to 1 (method.md section 3). A pinned particle keeps its value
 /// but counts as a neighbour. Bodies never mix: neighbours are found within a body.
 ///
-/// The conserving form exchanges min(m_i b_ij, m_j b_ji) of momentum both ways between neighbours, which is symmetric in
-/// the masses' inner product; where its smallest eigenvalue at rest is negative, as on some irregular meshes, all
-/// exchanges are scaled down until it is 0. A negative response would turn the restoring forces of a force filter around.
-/// A free body then gets its angular momentum back as a rigid rotation.
+/// The conserving form exchanges min(m_i b_ij, m_j b_ji) of momentum both ways between neighbours, which is symmetric
+/// in the masses' inner product; where a body's smallest eigenvalue at rest is negative, as on some irregular meshes,
+/// all its exchanges are scaled down until it is 0. A negative response would turn the restoring forces of a force
+/// filter around. A free body then gets its angular momentum back as a rigid rotation.
 class Filter {
  public:
   /// Throws InputError on an option out of its range.
@@ -66,7 +66,7 @@ class Filter {
   Weights compute_weights(const Eigen::MatrixX3d* position, double time) const;
   void symmetrise_with_masses(Weights& weights) const;
   void soften(Weights& weights) const;
-  double smallest_response() const;
+  void keep_spectrum_positive();
   void apply_once(const Weights& weights, Eigen::MatrixX3d& field) const;
   bool constant_weights() const;
 
@@ -75,7 +75,7 @@ class Filter {
   Eigen::VectorXd unit_;  // (n) [m] the body's mean rest length
   Pattern pattern_;
   Weights rest_weights_;
-  double strength_ = 1.0;        // share of the conserving form's exchange that keeps its spectrum in [0, 1]
+  Eigen::VectorXd strength_;  // (n) share of the conserving form's exchange that keeps its body's spectrum in [0, 1]
 };
 
 }  // namespace billow::sim

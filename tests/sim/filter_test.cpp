@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "sim/error.h"
@@ -272,6 +273,25 @@ TEST(PlainFilter, LosesMomentum) {
   Filter(structure, {}).apply(after.position, 0.0, after.velocity);
   EXPECT_GT((linear_momentum(structure, after) - linear_momentum(structure, before)).norm(),
             1e-4 * momentum_scale(structure, before));
+}
+
+// Symmetric in the masses' inner product and never negative, so a force filter with it leaves every frequency real.
+TEST(ConservingFilter, HasItsSpectrumBetweenZeroAndOne) {
+  for (const FilterNeighbours neighbours : {FilterNeighbours::springs, FilterNeighbours::radius})
+    for (const double lambda : {0.2, 1.0})
+      for (const Structure& structure : {pinned_sheet(), with_uneven_masses(ring(14, 1.0, 1.0), 0.3)}) {
+        const Eigen::MatrixXd b =
+            weights(structure, {.lambda = lambda, .form = FilterForm::conserving, .neighbours = neighbours});
+        std::vector<int> free;
+        for (int i = 0; i < structure.particles(); ++i)
+          if (!structure.pinned(i)) free.push_back(i);
+        const Eigen::VectorXd root = structure.mass(free).cwiseSqrt();
+        const Eigen::MatrixXd symmetric = root.asDiagonal() * b(free, free) * root.cwiseInverse().asDiagonal();
+        EXPECT_LT((symmetric - symmetric.transpose()).norm(), 1e-14);
+        const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
+        EXPECT_GE(spectrum.minCoeff(), -1e-3);
+        EXPECT_LE(spectrum.maxCoeff(), 1.0 + 1e-14);
+      }
 }
 
 // All on a line: no inertia about it.
