@@ -122,7 +122,8 @@ std::string Solver::advice() const {
 State Solver::sample(double time) {
   const double rounding = 1e-9 * options_.step;
   while (state_.time < time - rounding) {
-    if (state_.time + options_.step > time + rounding) previous_ = state_;
+    // The last step, also when it ends at `time` itself: the next sample may go back into it.
+    if (state_.time + 1.5 * options_.step > time) previous_ = state_;
     advance();
   }
   if (state_.time <= time + rounding) return state_;

@@ -15,11 +15,11 @@ namespace billow::sim {
 
 struct SolverOptions {
   Method method = Method::fb_euler;
-  IntegratorOptions integrator;
-  std::optional<FilterOptions> filter;
-  double step = 0.0;            // [s] > 0
-  std::optional<double> limit;  // [s] the largest stable step as far as it is known: quoted when the run diverges
-  double max_strain = 10.0;     // a spring longer than (1 + this) rest lengths has diverged
+  IntegratorOptions integrator = {};
+  std::optional<FilterOptions> filter = {};
+  double step = 0.0;                 // [s] > 0
+  std::optional<double> limit = {};  // [s] the largest stable step as far as it is known: quoted when the run diverges
+  double max_strain = 10.0;          // a spring longer than (1 + this) rest lengths has diverged
 };
 
 /// Owns the state of a run. Step k ends at time k h exactly, so nothing drifts over long runs.
