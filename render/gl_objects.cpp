@@ -78,14 +78,14 @@ GlObject make_framebuffer(const Gl& gl) {
   return {gl, name, [](const Gl& g, GLuint n) { g.DeleteFramebuffers(1, &n); }};
 }
 
-GlObject make_colour_texture(const Gl& gl, const Image& image) {
+GlObject make_colour_texture(const Gl& gl, const Image& image, GLint wrap) {
   GlObject texture = make_texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, image.channels == 4 ? GL_RGBA : GL_RGB,
                 GL_UNSIGNED_BYTE, upside_down(image).data());
   gl.GenerateMipmap(GL_TEXTURE_2D);
-  set_wrap(gl, GL_REPEAT);
+  set_wrap(gl, wrap);
   set_filter(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
   return texture;
 }

@@ -44,8 +44,9 @@ GlObject make_texture(const Gl& gl);
 GlObject make_renderbuffer(const Gl& gl);
 GlObject make_framebuffer(const Gl& gl);
 
-/// A mipmapped, repeating texture of an sRGB image: sampling it gives linear light. The image's top row is at v = 1.
-GlObject make_colour_texture(const Gl& gl, const Image& image);
+/// A mipmapped texture of an sRGB image: sampling it gives linear light. The image's top row is at v = 1. `wrap` is
+/// GL_REPEAT or GL_CLAMP_TO_EDGE.
+GlObject make_colour_texture(const Gl& gl, const Image& image, GLint wrap);
 
 /// A texture without mipmaps, sampled with `filter`, clamped at its edges.
 GlObject make_plain_texture(const Gl& gl, GLint internal_format, int width, int height, GLint filter);

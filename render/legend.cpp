@@ -4,6 +4,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -33,6 +34,9 @@ double legend_width(VelocityColour colour) {
 double legend_height(VelocityColour colour) {
   return 2.0 * kPadding + kTitleHeight + kTickHeight + kBarPitch * (bar_count(colour) - 1) + kBarHeight;
 }
+
+// Below this, text cannot be read.
+double legend_scale(int frame_height) { return std::max(0.7, frame_height / 720.0); }
 
 // Grey antialiasing and unhinted metrics: the same picture whatever the machine's font settings are.
 void choose_font(cairo_t* pen) {
@@ -134,7 +138,7 @@ Image to_rgba(cairo_surface_t* surface) {
 }  // namespace
 
 Image draw_legend(VelocityColour colour, double velocity_range, int frame_height) {
-  const double scale = frame_height / 720.0;
+  const double scale = legend_scale(frame_height);
   const int width = static_cast<int>(std::ceil(scale * legend_width(colour)));
   const int height = static_cast<int>(std::ceil(scale * legend_height(colour)));
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), cairo_surface_destroy);
@@ -148,7 +152,7 @@ Image draw_legend(VelocityColour colour, double velocity_range, int frame_height
 }
 
 void add_legend(Image& frame, const Image& legend) {
-  const int margin = static_cast<int>(kMargin * frame.height / 720.0);
+  const int margin = static_cast<int>(kMargin * legend_scale(frame.height));
   const int left = margin, top = frame.height - margin - legend.height;
   if (top < 0 || left + legend.width > frame.width) return;
   for (int y = 0; y < legend.height; ++y) {

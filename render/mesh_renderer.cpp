@@ -38,8 +38,14 @@ Image ramp_image() {
   return image;
 }
 
+// A texture that covers the body once must not bleed from one edge into the opposite one; a tiled one must.
+GLint wrap_for(const sim::Surface& surface) {
+  const bool once = surface.uv.size() == 0 || (surface.uv.minCoeff() >= 0.0f && surface.uv.maxCoeff() <= 1.0f);
+  return once ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+}
+
 GlObject make_ramp(const Gl& gl) {
-  GlObject texture = make_colour_texture(gl, ramp_image());
+  GlObject texture = make_colour_texture(gl, ramp_image(), GL_CLAMP_TO_EDGE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);  // a ramp has no place for mipmaps
   return texture;
 }
@@ -134,7 +140,7 @@ void MeshRenderer::Impl::load(const std::vector<DrawnBody>& bodies) {
   for (const DrawnBody& body : bodies) {
     const bool plain = body.texture.pixels.empty();
     meshes.emplace_back(gl, body.surface);
-    textures.push_back(make_colour_texture(gl, plain ? single_pixel() : body.texture));
+    textures.push_back(make_colour_texture(gl, plain ? single_pixel() : body.texture, wrap_for(body.surface)));
     colours.push_back(plain ? body.colour : Eigen::Vector3f::Ones());
   }
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace billow::render {
 namespace {
@@ -33,8 +34,8 @@ Eigen::MatrixX3f point_normals(const sim::Surface& surface, const Eigen::MatrixX
                                  surface.point(surface.triangle(t, 2)));
     add_triangle(points, position, normal);
   }
-  normal.rowwise().normalize();
-  return normal;
+  const Eigen::VectorXf length = normal.rowwise().norm().cwiseMax(std::numeric_limits<float>::min());
+  return normal.array().colwise() / length.array();
 }
 
 }  // namespace billow::render

@@ -39,10 +39,10 @@ uniform float shadow_offset;  // [m] along the normal, against a surface shadowi
 uniform vec2 shadow_blur;     // [texture] radius of the filter disc
 out vec4 pixel;
 
-const vec3 kKey = vec3(1.30, 1.22, 1.12);
+const vec3 kKey = vec3(1.42, 1.33, 1.22);
 const vec3 kSky = vec3(0.33, 0.37, 0.43);
 const vec3 kGroundBounce = vec3(0.22, 0.20, 0.18);
-const vec3 kFill = vec3(0.24, 0.26, 0.30);
+const vec3 kFill = vec3(0.16, 0.18, 0.21);
 // The outer four taps of the disc tell whether the other four are needed.
 const int kOuter = 4, kTaps = 8;
 const vec2 kDisc[8] = vec2[](vec2(0.92, 0.38), vec2(-0.38, 0.92), vec2(-0.92, -0.38), vec2(0.38, -0.92),
@@ -72,7 +72,7 @@ void main() {
   float to_eye_facing = max(dot(n, to_eye), 0.0);
   float fill = 0.5 + 0.5 * dot(n, to_fill);
   vec3 ambient = mix(kGroundBounce, kSky, 0.5 + 0.5 * n.y) + kFill * fill * fill;
-  ambient *= 0.55 + 0.45 * to_eye_facing;
+  ambient *= 0.5 + 0.5 * to_eye_facing;
 
   // Sheen: fibres that stand off the cloth catch light at grazing angles.
   float grazing = 1.0 - to_eye_facing;
@@ -137,10 +137,12 @@ uniform float frame_height;  // [pixel]
 
 vec3 gradient() { return mix(bottom, top, smoothstep(0.0, frame_height, gl_FragCoord.y)); }
 
-// Steps of 1/255 in a wide gradient show as bands: noise of one such step hides them.
+// Steps of 1/255 in a wide gradient show as bands: columns that step at different heights hide them. The pattern is the
+// same in every row, because PNG then still finds each row equal to the one above.
 vec4 dithered(vec3 colour) {
-  float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))) - 0.5;
-  return vec4(colour * (1.0 + noise * 2.2 / 255.0), 1.0);
+  int column = int(gl_FragCoord.x);
+  int reversed = (column & 1) << 2 | (column & 2) | (column & 4) >> 2;
+  return vec4(colour * (1.0 + (float(reversed) - 3.5) / 8.0 * 2.2 / 255.0), 1.0);
 }
 )";
 
