@@ -36,16 +36,28 @@ std::vector<std::pair<double, double>> read_lambda_keys(MapReader& filter) {
   return keys;
 }
 
-std::optional<sim::FilterOptions> read_filter(MapReader& solver) {
-  const Node* node = solver.find("filter");
-  if (!node || is_word(*node, "none")) {
-    solver.record("filter", make_scalar("none"));
-    return std::nullopt;
+// A number, or a formula over the particles in quotes.
+void read_lambda(MapReader& map, SolverSpec& solver) {
+  const Node* node = map.find("lambda");
+  if (!node || node->kind != Node::Kind::scalar || !node->quoted) {
+    solver.filter->lambda = map.number("lambda", solver.filter->lambda);
+    return;
   }
-  MapReader map = solver.map("filter", keys::filter);
-  sim::FilterOptions filter;
+  solver.lambda_expression = node->text;
+  solver.lambda_where = node->where;
+  map.record("lambda", make_scalar(node->text, true));
+}
+
+void read_filter(MapReader& parent, SolverSpec& solver) {
+  const Node* node = parent.find("filter");
+  if (!node || is_word(*node, "none")) {
+    parent.record("filter", make_scalar("none"));
+    return;
+  }
+  MapReader map = parent.map("filter", keys::filter);
+  sim::FilterOptions& filter = solver.filter.emplace();
   filter.kernel = map.choice("kernel", filter.kernel);
-  filter.lambda = map.number("lambda", filter.lambda);
+  read_lambda(map, solver);
   filter.lambda_keys = read_lambda_keys(map);
   filter.form = map.choice("form", filter.form);
   filter.target = map.choice("target", filter.target);
@@ -53,7 +65,6 @@ std::optional<sim::FilterOptions> read_filter(MapReader& solver) {
   filter.radius = map.number("radius", filter.radius);
   filter.distances = map.choice("distances", filter.distances);
   filter.passes = map.integer("passes", filter.passes);
-  return filter;
 }
 
 // auto, paper, or seconds.
@@ -82,7 +93,7 @@ SolverSpec read_solver(MapReader& scene, double duration) {
   solver.integrator.linear_solver = map.choice("linear_solver", solver.integrator.linear_solver);
   solver.integrator.tolerance = map.number("tolerance", solver.integrator.tolerance);
   solver.integrator.max_iterations = map.integer("max_iterations", solver.integrator.max_iterations);
-  solver.filter = read_filter(map);
+  read_filter(map, solver);
   // The implicit schemes solve for velocities: there is no single force that a filter could take.
   if (solver.filter && solver.filter->target == sim::FilterTarget::force && !sim::is_explicit(solver.method))
     fail_at(map.where("filter"), fmt::format("a force filter needs an explicit method, and {} is implicit; filter the "

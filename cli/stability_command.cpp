@@ -67,7 +67,7 @@ Limit measured(const Study& study, const Row& row, double duration) {
   sim::SolverOptions options;
   options.method = row.method;
   options.integrator = study.scene.solver.integrator;
-  if (row.filtered) options.filter = study.scene.solver.filter;
+  if (row.filtered) options.filter = study.simulation.filter();
   const Simulation& simulation = study.simulation;
   const double scale =
       sim::energy_scale(simulation.structure(), simulation.forces(), study.scene.gravity, simulation.initial_state());
@@ -105,8 +105,8 @@ Study make_study(const Scene& scene, const Simulation& simulation, double time) 
               {},
               {}};
   study.k0 = sim::max_eigenvalue(structure, study.linearisation.stiffness);
-  if (!scene.solver.filter) return study;
-  study.filter.emplace(structure, *scene.solver.filter);
+  if (!simulation.filter()) return study;
+  study.filter.emplace(structure, *simulation.filter());
   study.filtered = sim::filtered_eigenvalue(structure, study.linearisation.stiffness, *study.filter);
   return study;
 }
