@@ -116,6 +116,14 @@ double buckling_energy(double length, double rest_length, double stiffness, doub
   return line_energy(buckled.least) + along_arc + (a > buckled.most ? line - line_energy(buckled.most) : 0.0);
 }
 
+// f_b is steeper the more it is bent.
+double steepest_buckling_slope(double rest_length, double stiffness, double rigidity) {
+  const double a = buckled_range(rest_length, stiffness, rigidity).most;
+  if (a == 0.0) return stiffness;
+  const double scale = 4.0 * rigidity / (rest_length * rest_length);
+  return std::max(stiffness, scale * buckling_number_slope(a) * a / (chord_slope(a) * rest_length));
+}
+
 Tension tension(const Body& body, SpringKind kind, double length, double rest_length, double stiffness) {
   if (body.spring_model == SpringModel::linear) return linear_tension(length, rest_length, stiffness);
   return is_interlaced(kind) ? buckling_tension(length, rest_length, stiffness, body.buckling_rigidity)
@@ -126,6 +134,11 @@ double spring_energy(const Body& body, SpringKind kind, double length, double re
   if (body.spring_model == SpringModel::linear) return linear_energy(length, rest_length, stiffness);
   if (is_interlaced(kind)) return buckling_energy(length, rest_length, stiffness, body.buckling_rigidity);
   return length >= rest_length ? linear_energy(length, rest_length, stiffness) : 0.0;
+}
+
+double steepest_slope(const Body& body, SpringKind kind, double rest_length, double stiffness) {
+  const bool buckles = body.spring_model == SpringModel::choi_ko && is_interlaced(kind);
+  return buckles ? steepest_buckling_slope(rest_length, stiffness, body.buckling_rigidity) : stiffness;
 }
 
 }  // namespace billow::sim

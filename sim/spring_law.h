@@ -30,6 +30,9 @@ Tension buckling_tension(double length, double rest_length, double stiffness, do
 /// is buckled, shifted to be continuous.
 double buckling_energy(double length, double rest_length, double stiffness, double rigidity);
 
+/// The steepest slope dT/dl [N/m] of buckling_tension over all lengths: c_b, or that of the most buckled beam.
+double steepest_buckling_slope(double rest_length, double stiffness, double rigidity);
+
 /// A in (0, pi) with sin(A) / A = ratio, for 0 < ratio < 1; exact to rounding. 0 for ratio >= 1, pi for ratio <= 0.
 double inverse_sinc(double ratio);
 
@@ -39,5 +42,8 @@ inline bool is_interlaced(SpringKind kind) { return kind == SpringKind::bend; }
 /// The law of `body` for a spring of `kind`.
 Tension tension(const Body& body, SpringKind kind, double length, double rest_length, double stiffness);
 double spring_energy(const Body& body, SpringKind kind, double length, double rest_length, double stiffness);
+
+/// Its steepest slope [N/m] over all lengths.
+double steepest_slope(const Body& body, SpringKind kind, double rest_length, double stiffness);
 
 }  // namespace billow::sim

@@ -1,6 +1,8 @@
 // K x from per-spring blocks, and the same matrix assembled.
 #include "sim/stiffness.h"
 
+#include "sim/spring_law.h"
+
 namespace billow::sim {
 
 StiffnessMatrix::StiffnessMatrix(const Structure& structure)
@@ -119,7 +121,8 @@ Linearisation linearised(const Structure& structure, SpringReach reach) {
       const Eigen::RowVector3d d =
           structure.rest_position.row(structure.spring(s, 1)) - structure.rest_position.row(structure.spring(s, 0));
       const Eigen::Vector3d u = d.normalized();
-      add(result.stiffness, s, u, structure.stiffness(s), all);
+      const double k = structure.stiffness(s);
+      add(result.stiffness, s, u, all ? steepest_slope(body, structure.kind[s], structure.rest_length(s), k) : k, all);
       add(result.damping, s, u, structure.damping(s), all || body.damping_model == DampingModel::spring);
     }
     for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)

@@ -53,7 +53,7 @@ struct Linearisation {
 /// the stiffest that the structure can be at its rest shape.
 Linearisation linearise_at_rest(const Structure& structure);
 
-/// An upper bound over every shape: each spring with its full stiffness in all directions at once. While tensions stay
+/// An upper bound over every shape: each spring with its steepest slope in all directions at once. While tensions stay
 /// below k l, a spring's true block (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or
 /// crumple of the structure is stiffer than this.
 Linearisation linearise_any_shape(const Structure& structure);

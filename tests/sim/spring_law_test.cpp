@@ -143,6 +143,16 @@ TEST(Buckling, SlopeIsTheDerivativeOfTheForce) {
   }
 }
 
+TEST(Buckling, SlopeIsNowhereSteeperThanTheSteepest) {
+  for (const Beam& beam : beams()) {
+    const double steepest = steepest_buckling_slope(beam.length, beam.stiffness, beam.rigidity);
+    double found = beam.tension(beam.length * (1.0 - 1e-9)).slope;
+    for (int k = 1; k < 20000; ++k) found = std::max(found, beam.tension(beam.length * k / 20000.0).slope);
+    EXPECT_LE(found, steepest * (1.0 + 1e-12)) << beam.rigidity;
+    EXPECT_GE(found, steepest * 0.999) << beam.rigidity;
+  }
+}
+
 TEST(Buckling, SlopeIsSmoothWhereTheSeriesTakesOver) {
   Beam beam;
   beam.rigidity = 1e-9;

@@ -216,5 +216,21 @@ TEST(LinearisationAtRest, CountsSlackSpringsInFull) {
             dense(linearise_at_rest(sheet(SpringModel::linear)).stiffness));
 }
 
+// Folded, crumpled or drawn out: no state's matrix exceeds the bound in any direction. A rigid enough beam is stiffer
+// when bent right over than it is straight.
+TEST(LinearisationOfAnyShape, IsAnUpperBoundOverStates) {
+  for (const SpringModel model : {SpringModel::linear, SpringModel::choi_ko}) {
+    Structure structure = sheet(model);
+    structure.body[0].buckling_rigidity = 4e-3;
+    const Forces forces(structure, Eigen::Vector3d::Zero());
+    const Eigen::MatrixXd bound = dense(linearise_any_shape(structure).stiffness);
+    for (const double distance : {0.01, 0.1, 1.0, 100.0}) {
+      const State state = shaken_state(structure, distance, 0.0);
+      const Eigen::MatrixXd matrix = dense(forces.linearise(state, 1.0, 0.0, JacobianForm::definite));
+      EXPECT_GT(least_eigenvalue(bound - matrix), -1e-10 * 500.0) << static_cast<int>(model) << " " << distance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace billow::sim
