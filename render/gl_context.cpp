@@ -13,8 +13,6 @@
 namespace billow::render {
 namespace {
 
-constexpr GLenum kMaxTextureMaxAnisotropy = 0x84FF;  // GL_EXT_texture_filter_anisotropic, not in the core header
-
 // Mesa dereferences a null driver when GALLIUM_DRIVER names one it was not built with.
 void sanitise_driver() {
   const char* driver = std::getenv("GALLIUM_DRIVER");
@@ -56,16 +54,6 @@ Gl load_functions() {
   return gl;
 }
 
-bool has_extension(const Gl& gl, std::string_view wanted) {
-  GLint count = 0;
-  gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
-  for (GLint i = 0; i < count; ++i) {
-    const auto* name = reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
-    if (name && wanted == name) return true;
-  }
-  return false;
-}
-
 GlLimits query_limits(const Gl& gl) {
   GlLimits limits;
   GLint renderbuffer = 0, texture = 0;
@@ -73,8 +61,6 @@ GlLimits query_limits(const Gl& gl) {
   gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   limits.max_size = std::min(renderbuffer, texture);
-  if (has_extension(gl, "GL_EXT_texture_filter_anisotropic") || has_extension(gl, "GL_ARB_texture_filter_anisotropic"))
-    gl.GetFloatv(kMaxTextureMaxAnisotropy, &limits.max_anisotropy);
   return limits;
 }
 

@@ -13,9 +13,8 @@ namespace billow::render {
 
 /// What this GL can do, asked once.
 struct GlLimits {
-  int max_samples = 1;          // per pixel of a multisampled renderbuffer
-  int max_size = 0;             // [pixel] of a renderbuffer or texture, either way
-  float max_anisotropy = 1.0f;  // 1: no anisotropic filtering
+  int max_samples = 1;  // per pixel of a multisampled renderbuffer
+  int max_size = 0;     // [pixel] of a renderbuffer or texture, either way
 };
 
 /// A current context as long as nobody else makes another one current; use it from one thread.

@@ -47,14 +47,11 @@ namespace billow::render {
   X(PFNGLGENTEXTURESPROC, GenTextures)                                        \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                \
   X(PFNGLGETERRORPROC, GetError)                                              \
-  X(PFNGLGETFLOATVPROC, GetFloatv)                                            \
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                        \
-  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                            \
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                      \
   X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                              \
   X(PFNGLGETSHADERIVPROC, GetShaderiv)                                        \
   X(PFNGLGETSTRINGPROC, GetString)                                            \
-  X(PFNGLGETSTRINGIPROC, GetStringi)                                          \
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                          \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                                        \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                                        \
@@ -65,7 +62,6 @@ namespace billow::render {
   X(PFNGLSCISSORPROC, Scissor)                                                \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                      \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                          \
-  X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                    \
   X(PFNGLTEXPARAMETERFVPROC, TexParameterfv)                                  \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                    \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                                            \

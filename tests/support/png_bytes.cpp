@@ -52,8 +52,8 @@ std::string png_chunk(const std::string& type, const std::string& data) {
 }
 
 std::string png_bytes(const PngLayout& layout, const std::string& rows) {
-  const std::size_t stride =
-      static_cast<std::size_t>(layout.width * layout.depth * channels(layout.colour_type) + 7) / 8;
+  const std::size_t bits = std::size_t(layout.width) * layout.depth * channels(layout.colour_type);
+  const std::size_t stride = (bits + 7) / 8;
   std::string filtered;
   for (int y = 0; y < layout.height; ++y) filtered += '\0' + rows.substr(y * stride, stride);
   std::string bytes = "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header(layout));
