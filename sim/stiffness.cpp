@@ -16,6 +16,7 @@ void StiffnessMatrix::add_block(int spring, const Eigen::Vector3d& direction, do
   direction_.row(spring) = direction;
   isotropic_(spring) += isotropic;
   along_(spring) += along;
+  only_diagonal_ = only_diagonal_ && isotropic_(spring) == 0.0 && along_(spring) == 0.0;
 }
 
 void StiffnessMatrix::add_scaled(const StiffnessMatrix& other, double weight) {
@@ -23,10 +24,12 @@ void StiffnessMatrix::add_scaled(const StiffnessMatrix& other, double weight) {
   direction_ = other.direction_;
   isotropic_ += weight * other.isotropic_;
   along_ += weight * other.along_;
+  only_diagonal_ = only_diagonal_ && other.only_diagonal_;
 }
 
 void StiffnessMatrix::multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& out) const {
   out = diagonal_.asDiagonal() * x;
+  if (only_diagonal_) return;
   const int* first = structure_.spring.col(0).data();
   const int* second = structure_.spring.col(1).data();
   const double *xx = x.col(0).data(), *xy = x.col(1).data(), *xz = x.col(2).data();

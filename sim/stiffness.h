@@ -41,6 +41,7 @@ class StiffnessMatrix {
   Eigen::VectorXd diagonal_;    // (n)
   Eigen::MatrixX3d direction_;  // (m x 3)
   Eigen::VectorXd isotropic_;   // (m) a
+  bool only_diagonal_ = true;   // all blocks are zero, as where only friction damps
   Eigen::VectorXd along_;       // (m) b
 };
 
