@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGroundGap = 0.02;                  // the ground lies this share of the box's diagonal below it
 constexpr double kGroundExtent = 12.0;               // [radius] how far the drawn ground reaches
-const Eigen::Vector3d kKeyLight(-0.95, 1.20, 0.55);  // right, up, towards the camera
+const Eigen::Vector3d kKeyLight(-0.78, 1.35, 0.50);  // right, up, towards the camera
 const Eigen::Vector3d kFillLight(1.00, 0.25, 0.40);
 
 Eigen::AlignedBox3d sound_box(const Eigen::AlignedBox3d& box) {
