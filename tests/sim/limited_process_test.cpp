@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr ProcessLimits limits = {
-    .memory_bytes = 64 << 20, .cpu_seconds = 1, .wall_seconds = 5.0, .reply_bytes = 1 << 20};
+    .memory_bytes = 64 << 20, .cpu_seconds = 1, .wall_seconds = 60.0, .reply_bytes = 1 << 20};
 
 std::string refusal(const std::function<std::string()>& work, const ProcessLimits& given = limits) {
   try {
