@@ -16,7 +16,7 @@ namespace billow::render {
 struct DrawnBody {
   sim::Surface surface;
   Image texture;                             // empty: plain `colour`
-  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};  // linear-light RGB in [0, 1]
+  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB in [0, 1]
 };
 
 /// What holds for every frame of a run and is known before the first one is drawn.

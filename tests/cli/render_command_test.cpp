@@ -24,6 +24,7 @@ std::string small_scene(const std::string& solver = "{method: fb_euler}", double
          "      mass: 0.05\n"
          "      stiffness: {max_eigenvalue: 100000}\n"
          "      pins: [{corner: top_left}, {corner: top_right}]\n"
+         "    colour: \"#2f7f86\"\n"
          "solver: " +
          solver +
          "\nrender: {size: [96, 64], fps: 25, samples: 4}\n"
@@ -169,7 +170,7 @@ TEST_F(RenderCommand, ChecksTheSceneBeforeItTouchesTheFolder) {
   scene(small_scene("{methd: fb_euler}"));
   const ToolResult result = render({"--overwrite"});
   EXPECT_EQ(result.status, 4);
-  EXPECT_EQ(result.errors, "scene.yaml:11:10: unknown key 'methd' in solver; did you mean 'method'?\n");
+  EXPECT_EQ(result.errors, "scene.yaml:12:10: unknown key 'methd' in solver; did you mean 'method'?\n");
   EXPECT_EQ(whole_images("textured"), 11);
 }
 

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Renders the pictures of the README and docs/ again, each by the command that stands beside it there.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# one SCENE FRAME VIEW NAME [OPTION...]: one frame of a view as docs/images/NAME.png
+one() {
+  local scene=$1 frame=$2 view=$3 name=$4
+  shift 4
+  ./billow render "scenes/$scene.yaml" --frames "$frame" -o "$work/$name" --progress none -D "render.views=[$view]" "$@"
+  cp "$work/$name/$view"/frame_*.png "docs/images/$name.png"
+}
+small=(-D 'render.size=[480, 270]' -D render.samples=8)
+
+one drape 15 textured drape
+one drape 15 velocity drape_velocity "${small[@]}"
+one irregular 40 textured irregular "${small[@]}"
+one two_bodies 30 textured two_bodies "${small[@]}"
+one choi_ko 100 textured choi_ko "${small[@]}"
+one fish 60 textured fish "${small[@]}"
+./billow render scenes/drape.yaml -o "$work/film" --progress none -D duration=5 -D 'render.size=[64, 36]' -D 'render.views=[velocity]'
+cp "$work/film/velocity_strip.png" docs/images/drape_strip.png
