@@ -57,40 +57,60 @@ Eigen::MatrixX3d unit_rest() {
   return build_fish(unit).rest_position;
 }
 
-/// Where along the body, how high above its curve and how far to the right.
-Weights point_weights(const Eigen::RowVector3d& point, const std::array<Frame, stations>& frame,
-                      const Eigen::MatrixX3d& rest) {
-  const auto behind = fish_stations();
+// The frame at a distance behind the snout, in shares of the length.
+Frame frame_at(double behind, const std::array<Frame, stations>& frame) {
+  const auto knots = fish_stations();
   const Eigen::VectorXd share =
-      spline_weights(Eigen::VectorXd::Map(behind.data(), static_cast<Eigen::Index>(behind.size())), 0.5 - point.x());
-  Weights middle = Weights::Zero(), up = Weights::Zero(), side = Weights::Zero();
+      spline_weights(Eigen::VectorXd::Map(knots.data(), static_cast<Eigen::Index>(knots.size())), behind);
+  Frame blend;
   for (int k = 0; k < stations; ++k) {
-    middle += share(k) * frame[k].middle;
-    up += share(k) * frame[k].up;
-    side += share(k) * frame[k].side;
+    blend.middle += share(k) * frame[k].middle;
+    blend.up += share(k) * frame[k].up;
+    blend.side += share(k) * frame[k].side;
   }
-  const Eigen::RowVector3d origin = middle * rest;
-  return middle + (point.y() - origin.y()) * up + (point.z() - origin.z()) * side;
+  return blend;
+}
+
+void bind_point(int point, const Eigen::RowVector3d& position, const Frame& frame, const Eigen::MatrixX3d& rest,
+                Skin& skin) {
+  const Eigen::RowVector3d origin = frame.middle * rest;
+  skin.middle.row(point) = frame.middle.cast<float>();
+  skin.up.row(point) = frame.up.cast<float>();
+  skin.side.row(point) = frame.side.cast<float>();
+  skin.height(point) = static_cast<float>(position.y() - origin.y());
+  skin.width(point) = static_cast<float>(position.z() - origin.z());
 }
 
 }  // namespace
 
-Skin bind_fish_skin(const Mesh& mesh) {
+Skin bind_fish_skin(const Mesh& mesh, double length) {
   const Eigen::MatrixX3d rest = unit_rest();
   const std::array<Frame, stations> frame = station_frames(rest);
-  Skin skin;
-  skin.surface = build_surface(mesh);
-  skin.weight.resize(mesh.vertices(), fish_particles);
-  for (int v = 0; v < mesh.vertices(); ++v)
-    skin.weight.row(v) = point_weights(mesh.position.row(v), frame, rest).cast<float>();
+  const int points = mesh.vertices();
+  Skin skin{build_surface(mesh)};
+  for (Eigen::MatrixXf* weight : {&skin.middle, &skin.up, &skin.side}) weight->resize(points, fish_particles);
+  skin.height.resize(points), skin.width.resize(points);
+  for (int v = 0; v < points; ++v)
+    bind_point(v, mesh.position.row(v), frame_at(0.5 - mesh.position(v, 0), frame), rest, skin);
+  skin.height *= static_cast<float>(length);
+  skin.width *= static_cast<float>(length);
   return skin;
+}
+
+Eigen::MatrixXd fish_axis(int rows) {
+  const std::array<Frame, stations> frame = station_frames(unit_rest());
+  const auto knots = fish_stations();
+  Eigen::MatrixXd weights(rows, fish_particles);
+  for (int r = 0; r < rows; ++r)
+    weights.row(r) = frame_at(knots.front() + (knots.back() - knots.front()) * r / (rows - 1.0), frame).middle;
+  return weights;
 }
 
 Skin plain_fish_skin() {
   Mesh mesh;
   mesh.position = unit_rest();
   mesh.face = fish_faces();
-  return {build_surface(mesh), {}};
+  return {build_surface(mesh)};
 }
 
 }  // namespace billow::sim

@@ -9,7 +9,7 @@
 namespace billow::sim {
 
 struct Water {
-  double resistance = 220.0;  // [kg/(m^2 s)] pressure per speed of a face that moves against it
+  double resistance = 1000.0;  // [kg/(m^2 s)] pressure per speed of a face that moves against it
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // [m/s] its current, the same everywhere
 };
 
