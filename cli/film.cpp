@@ -10,10 +10,10 @@
 
 #include "cli/channel.h"
 #include "cli/interrupt.h"
+#include "cli/strip_rows.h"
 #include "render/png.h"
 #include "render/velocity_strip.h"
 #include "sim/error.h"
-#include "sim/particle_order.h"
 
 namespace billow::cli {
 
@@ -115,17 +115,12 @@ FrameRecord record_of(const Simulation& simulation, long frame, const sim::State
           sim::angular_momentum(structure, state)};
 }
 
-// Every body's particles in the strip's order, one body below the other.
-std::vector<int> strip_order(const Scene& scene, const sim::Structure& structure) {
-  std::vector<int> order;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const sim::Body& body = structure.body[b];
-    std::vector<int> rows(body.particles);
-    for (int i = 0; i < body.particles; ++i) rows[i] = i;
-    if (scene.strip->order == StripOrder::zigzag) rows = sim::zigzag_order(scene.bodies[b].mesh);
-    for (const int row : rows) order.push_back(body.first_particle + row);
+// By the first `bodies` of the surfaces: what drifts in the water around them does not count.
+void extend(Eigen::AlignedBox3d& box, const std::vector<sim::SurfaceState>& surfaces, std::size_t bodies) {
+  for (std::size_t b = 0; b < bodies; ++b) {
+    box.extend(surfaces[b].position.colwise().minCoeff().transpose().cast<double>());
+    box.extend(surfaces[b].position.colwise().maxCoeff().transpose().cast<double>());
   }
-  return order;
 }
 
 /// One run of make_film.
@@ -141,6 +136,7 @@ class Film {
         folder_(folder),
         threads_(threads),
         progress_(progress),
+        strip_rows_(scene, simulation.structure()),
         images_(static_cast<std::size_t>(2 * threads)),
         error_([this] { snapshots_.abort(), images_.abort(); }) {}
 
@@ -168,7 +164,7 @@ class Film {
   void simulate() {
     std::optional<render::VelocityStrip> strip;
     if (scene_.strip)
-      strip.emplace(folder_.strip(), strip_order(scene_, simulation_.structure()),
+      strip.emplace(folder_.strip(), strip_rows_.order(),
                     scene_.render.velocity_range.value_or(bounds_.velocity_scale));
     const auto solver = simulation_.make_solver(choice_);
     try {
@@ -193,7 +189,7 @@ class Film {
       {
         const Stopwatch watch(report_.simulate_seconds);
         const sim::State state = solver.sample(sample->time);
-        if (sample->column) strip->add_column(state.velocity);
+        if (sample->column) strip->add_column(strip_rows_.of(state.velocity));
         if (sample->frame && *sample->frame >= range_.first) {
           report_.frames.push_back(record_of(simulation_, *sample->frame, state));
           snapshot = {*sample->frame, sample->time, simulation_.surfaces(state)};
@@ -244,6 +240,7 @@ class Film {
   const OutputFolder& folder_;
   int threads_;
   Progress& progress_;
+  StripRows strip_rows_;
   Channel<Snapshot> snapshots_{4};
   Channel<FinishedImage> images_;
   FirstError error_;
@@ -270,8 +267,7 @@ Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice
       const sim::State state = solver->sample(sample->time);
       const Eigen::RowVector3d mean_square = state.velocity.colwise().squaredNorm() / state.velocity.rows();
       result.bounds.velocity_scale = std::max(result.bounds.velocity_scale, 2.0 * std::sqrt(mean_square.maxCoeff()));
-      result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().minCoeff()));
-      result.bounds.box.extend(Eigen::Vector3d(state.position.colwise().maxCoeff()));
+      extend(result.bounds.box, simulation.surfaces(state), scene.bodies.size());
       if (sample->frame) progress.update(*sample->frame, sample->time);
     }
   } catch (const DivergenceError&) {

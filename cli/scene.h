@@ -11,8 +11,11 @@
 #include "render/settings.h"
 #include "sim/cloth.h"
 #include "sim/filter.h"
+#include "sim/fish.h"
+#include "sim/fish_motion.h"
 #include "sim/integrator.h"
 #include "sim/mesh.h"
+#include "sim/water_force.h"
 
 namespace billow::cli {
 
@@ -27,19 +30,30 @@ struct SolverSpec {
   double step = 0.0;    // [s] for StepRule::fixed
   double safety = 0.9;  // in (0, 1], for the other two rules
   std::optional<sim::FilterOptions> filter;
+  std::string lambda_expression;  // lambda as a formula over the particles; empty: filter->lambda everywhere
+  std::string lambda_where;       // its place in the scene
 };
 
-/// One cloth of the scene, its mesh already imported and moved, its pins already found.
+/// What makes a body a fish.
+struct FishSpec {
+  sim::FishOptions options;
+  sim::MotionOptions motion;
+  double buoyancy = 1.0;  // share of the weight that the water carries
+};
+
+/// One body of the scene, its mesh already imported: a cloth, its mesh moved and its pins found, or a fish, whose mesh
+/// is its skin.
 struct BodySpec {
   std::string name;
-  std::filesystem::path mesh_file;
-  std::string mesh_where;  // place of the mesh in the scene, for messages
+  std::filesystem::path mesh_file;  // empty: a fish without a drawn skin
+  std::string mesh_where;           // place of the mesh in the scene, for messages
   sim::Mesh mesh;
   sim::ClothOptions cloth;
+  std::optional<FishSpec> fish;                                // set: this body is a fish, and `cloth` means nothing
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
   std::filesystem::path texture_file;                          // empty: plain colour
   render::Image texture;
-  Eigen::Vector3f colour{0.8f, 0.8f, 0.8f};  // linear-light RGB
+  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB
 };
 
 /// Which particle each row of the strip shows: the zig-zag of the paper's Figure 3, or the mesh file's own order.
@@ -55,6 +69,9 @@ struct Scene {
   double duration = 10.0;                    // [s] > 0
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};  // [m/s^2]
   std::vector<BodySpec> bodies;
+  sim::Water water;             // around the fish
+  int motes = 0;                // drawn specks that drift in it
+  std::optional<int> followed;  // the body that the camera stays beside
   SolverSpec solver;
   render::Settings render;
   std::optional<StripSpec> strip;

@@ -48,12 +48,14 @@ std::vector<int> pinned_vertices(const sim::Mesh& mesh, const BodyDraft& draft) 
 
 BodySpec load_body(BodyDraft draft) {
   BodySpec& spec = draft.spec;
-  check_file(spec.mesh_file, "mesh", spec.mesh_where);
+  if (!spec.mesh_file.empty()) check_file(spec.mesh_file, "mesh", spec.mesh_where);
   if (!spec.texture_file.empty()) {
     check_file(spec.texture_file, "texture", draft.texture_where);
     spec.texture = located(draft.texture_where, [&] { return render::read_png(spec.texture_file); });
   }
+  if (spec.mesh_file.empty()) return std::move(spec);
   const sim::Mesh mesh = located(spec.mesh_where, [&] { return sim::import_mesh(spec.mesh_file); });
+  if (spec.fish) return spec.mesh = mesh, std::move(spec);
   spec.mesh = sim::transformed(mesh, draft.rotation, draft.scale, draft.translation);
   spec.cloth.pinned = pinned_vertices(spec.mesh, draft);
   return std::move(spec);
@@ -62,7 +64,9 @@ BodySpec load_body(BodyDraft draft) {
 sim::Structure build_structure(const Scene& scene) {
   std::vector<sim::Structure> parts;
   for (const BodySpec& body : scene.bodies)
-    parts.push_back(located(body.mesh_where, [&] { return sim::build_cloth(body.mesh, body.cloth); }));
+    parts.push_back(located(body.mesh_where, [&] {
+      return body.fish ? sim::build_fish(body.fish->options) : sim::build_cloth(body.mesh, body.cloth);
+    }));
   return sim::merge(parts);
 }
 

@@ -153,7 +153,12 @@ BodyDraft read_body(const Node& node, int index, const std::filesystem::path& fo
   draft.spec.name = map.text("name", fmt::format("body_{}", index));
   check_name(draft.spec.name, map.where("name"));
   draft.spec.cloth.name = draft.spec.name;
-  read_cloth(map, folder, draft);
+  if (map.find("cloth") && map.find("fish"))
+    fail_at(map.where("fish"), "a body is a cloth or a fish, and this one has both");
+  if (map.find("fish"))
+    read_fish(map, folder, draft);
+  else
+    read_cloth(map, folder, draft);
   read_texture(map, folder, draft);
   draft.spec.colour = read_colour(map, "colour", draft.spec.colour);
   return draft;

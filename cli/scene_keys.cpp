@@ -17,11 +17,12 @@ const Section scene{"the scene",
                      {"duration", above_0(1e5, "s")},
                      {"gravity", within(1e4, "m/s²")},
                      {"bodies"},
+                     {"water"},
                      {"solver"},
                      {"render"},
                      {"strip", {}, {"none"}}}};
 
-const Section body{"body", {{"name"}, {"cloth"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
+const Section body{"body", {{"name"}, {"cloth"}, {"fish"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
 
 const Section cloth{"cloth",
                     {{"mesh"},
@@ -57,6 +58,40 @@ const Section transform{
 
 const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600, "degrees")}}};
 
+const Section fish{"fish",
+                   {{"skin"},
+                    {"length", above_0(1e4, "m")},
+                    {"mass"},
+                    {"stiffness"},
+                    {"viscosity", at_least_0(1e9, "N s/m")},
+                    {"position", within(1e6, "m")},
+                    {"heading", within(3600, "degrees")},
+                    {"velocity", within(1e4, "m/s")},
+                    {"buoyancy", between(0, 10)},
+                    {"motion"}}};
+
+const Section fish_mass{
+    "mass", {{"snout", above_0(1e9, "kg")}, {"rings", above_0(1e9, "kg")}, {"tail_tip", above_0(1e9, "kg")}}};
+
+const Section fish_stiffness{
+    "stiffness", {{"cross", above_0(1e12, "N/m")}, {"normal", above_0(1e12, "N/m")}, {"muscle", above_0(1e12, "N/m")}}};
+
+const Section motion{"motion",
+                     {{"keys"},
+                      {"transition", at_least_0(1e5, "s")},
+                      {"lag", within(3600, "degrees")},
+                      {"phase", within(3600, "degrees")}}};
+
+const Section motion_key{"the key",
+                         {{"time", between(0, 1e5, "s")},
+                          {"swim", between(0, 1)},
+                          {"turn", between(-1, 1)},
+                          {"frequency", above_0(1e3, "1/s")}}};
+
+const Section water{
+    "water",
+    {{"resistance", at_least_0(1e9, "kg/(m² s)")}, {"current", within(1e4, "m/s")}, {"motes", between(0, 10000)}}};
+
 const Section solver{"solver",
                      {{"method", {}, {"forward_euler", "fb_euler", "verlet", "rk4", "backward_euler", "imex"}},
                       {"step", above_0(1e5, "s"), {"auto", "paper"}},
@@ -89,9 +124,11 @@ const Section render{"render",
                       {"legend"},
                       {"background", between(0, 1)}}};
 
-const Section camera{
-    "camera",
-    {{"eye", within(1e6, "m"), {"fit"}}, {"look_at", within(1e6, "m"), {"fit"}}, {"fov", between(1, 170, "degrees")}}};
+const Section camera{"camera",
+                     {{"eye", within(1e6, "m"), {"fit"}},
+                      {"look_at", within(1e6, "m"), {"fit"}},
+                      {"fov", between(1, 170, "degrees")},
+                      {"follow"}}};
 
 const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
 
@@ -106,6 +143,12 @@ const std::vector<PlacedSection>& all() {
                                                    {"bodies[].cloth.stiffness", &stiffness},
                                                    {"bodies[].cloth.damping", &damping},
                                                    {"bodies[].cloth.pins[]", &pin},
+                                                   {"bodies[].fish", &fish},
+                                                   {"bodies[].fish.mass", &fish_mass},
+                                                   {"bodies[].fish.stiffness", &fish_stiffness},
+                                                   {"bodies[].fish.motion", &motion},
+                                                   {"bodies[].fish.motion.keys[]", &motion_key},
+                                                   {"water", &water},
                                                    {"solver", &solver},
                                                    {"solver.filter", &filter},
                                                    {"render", &render},

@@ -36,7 +36,15 @@ BodySpec load_body(BodyDraft draft);
 /// `duration` [s] bounds the step.
 SolverSpec read_solver(MapReader& scene, double duration);
 
-render::Settings read_render(MapReader& scene, double duration);
+/// fish: in `body`, into the draft.
+void read_fish(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft);
+
+/// water: into the scene.
+void read_water(MapReader& map, Scene& scene);
+
+/// Names in `bodies` are what a camera can follow; `followed` is the place of the one it does.
+render::Settings read_render(MapReader& scene, double duration, const std::vector<std::string>& bodies,
+                             std::optional<int>& followed);
 
 std::optional<StripSpec> read_strip(MapReader& scene, double duration);
 

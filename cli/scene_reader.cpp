@@ -43,6 +43,12 @@ std::vector<BodyDraft> read_bodies(MapReader& scene, const std::filesystem::path
   return drafts;
 }
 
+std::vector<std::string> names_of(const std::vector<BodyDraft>& drafts) {
+  std::vector<std::string> names;
+  for (const BodyDraft& draft : drafts) names.push_back(draft.spec.name);
+  return names;
+}
+
 template <class Value>
 std::string_view bytes_of(const Value* values, std::size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
@@ -53,7 +59,7 @@ std::string fingerprint(const Scene& scene) {
   Hash hash;
   hash.add(scene.effective);
   for (const BodySpec& body : scene.bodies) {
-    hash.add_file(body.mesh_file);
+    if (!body.mesh_file.empty()) hash.add_file(body.mesh_file);
     hash.add(bytes_of(body.mesh.position.data(), static_cast<std::size_t>(body.mesh.position.size())));
     hash.add(bytes_of(body.mesh.face.data(), body.mesh.face.size()));
     if (!body.texture_file.empty()) hash.add_file(body.texture_file);
@@ -73,8 +79,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.duration = map.number("duration", scene.duration);
   scene.gravity = map.vector("gravity", scene.gravity);
   std::vector<BodyDraft> drafts = read_bodies(map, file.parent_path());
+  read_water(map, scene);
   scene.solver = read_solver(map, scene.duration);
-  scene.render = read_render(map, scene.duration);
+  scene.render = read_render(map, scene.duration, names_of(drafts), scene.followed);
   scene.strip = read_strip(map, scene.duration);
   scene.effective = to_yaml(*record);
   for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft)));

@@ -9,6 +9,7 @@
 #include "cli/number_text.h"
 #include "cli/scene_keys.h"
 #include "cli/scene_parts.h"
+#include "cli/suggestion.h"
 
 namespace billow::cli {
 namespace {
@@ -74,12 +75,23 @@ void read_camera_keys(MapReader& map, render::Camera& camera) {
   camera.look_at = *look_at;
 }
 
+// The place of the body that the camera stays beside.
+std::optional<int> read_follow(MapReader& camera, const std::vector<std::string>& bodies) {
+  const std::string name = camera.text("follow", "none");
+  const auto found = std::find(bodies.begin(), bodies.end(), name);
+  if (found != bodies.end()) return static_cast<int>(found - bodies.begin());
+  if (name == "none") return std::nullopt;
+  fail_at(camera.where("follow"), fmt::format("there is no body '{}' to follow{}", name,
+                                              suggestion(name, {bodies.begin(), bodies.end()}, "the scene has")));
+}
+
 // `camera: fit` is short for a camera without keys.
-void read_camera(MapReader& map, render::Camera& camera) {
+std::optional<int> read_camera(MapReader& map, render::Camera& camera, const std::vector<std::string>& bodies) {
   const Node* node = map.find("camera");
   if (node && is_word(*node, "fit")) node = nullptr;
   MapReader camera_map = map.map_from(node, "camera", keys::camera);
   read_camera_keys(camera_map, camera);
+  return read_follow(camera_map, bodies);
 }
 
 // true, false, or the height of the ground.
@@ -109,7 +121,8 @@ void read_background(MapReader& map, render::Background& background) {
 
 }  // namespace
 
-render::Settings read_render(MapReader& scene, double duration) {
+render::Settings read_render(MapReader& scene, double duration, const std::vector<std::string>& bodies,
+                             std::optional<int>& followed) {
   MapReader map = scene.map("render", keys::render);
   render::Settings settings;
   read_size(map, settings);
@@ -119,7 +132,7 @@ render::Settings read_render(MapReader& scene, double duration) {
                                           shortest(duration), shortest(settings.fps)));
   settings.samples = read_samples(map, settings.samples);
   read_views(map, settings.views);
-  read_camera(map, settings.camera);
+  followed = read_camera(map, settings.camera, bodies);
   read_ground(map, settings);
   settings.velocity_colour = map.choice("velocity_colour", settings.velocity_colour);
   settings.velocity_range = map.number_or_word("velocity_range");

@@ -1,9 +1,13 @@
 // Scene -> structure, forces, surfaces, step.
 #include "cli/simulation.h"
 
+#include "cli/particle_expression.h"
 #include "sim/certificate.h"
 #include "sim/error.h"
 #include "sim/filter.h"
+#include "sim/fish_skin.h"
+#include "sim/muscle_force.h"
+#include "sim/water_force.h"
 
 namespace billow::cli {
 
@@ -22,36 +26,92 @@ sim::State start_of(const Scene& scene, const sim::Structure& structure) {
   return state;
 }
 
+sim::Skin skin_of(const BodySpec& body) {
+  if (!body.fish) return {sim::build_surface(body.mesh)};
+  return body.mesh_file.empty() ? sim::plain_fish_skin() : sim::bind_fish_skin(body.mesh, body.fish->options.length);
+}
+
+void add_fish_forces(const Scene& scene, const sim::Structure& structure, int body, sim::Forces& forces) {
+  const FishSpec& fish = *scene.bodies[body].fish;
+  forces.add(std::make_unique<sim::MuscleForce>(structure, body, sim::FishMotion(fish.motion)));
+  forces.add(std::make_unique<sim::WaterForce>(scene.water, sim::fish_faces(), structure.body[body].first_particle));
+  forces.add(std::make_unique<sim::Buoyancy>(structure, body, scene.gravity, fish.buoyancy));
+}
+
+// The mesh whose vertices are the body's particles; an empty one for bodies that are only dressed in theirs.
+const sim::Mesh& particle_mesh(const BodySpec& spec, const sim::Body& body) {
+  static const sim::Mesh none;
+  return spec.mesh.vertices() == body.particles ? spec.mesh : none;
+}
+
+// lambda at every particle, where the scene gives a formula for it. Throws InputError located there.
+std::optional<sim::FilterOptions> filter_of(const Scene& scene, const sim::Structure& structure) {
+  std::optional<sim::FilterOptions> filter = scene.solver.filter;
+  if (!filter || scene.solver.lambda_expression.empty()) return filter;
+  filter->lambda = 1.0;
+  filter->lambda_scale.resize(structure.particles());
+  try {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const sim::Body& body = structure.body[b];
+      const Eigen::MatrixX3d position = structure.rest_position.middleRows(body.first_particle, body.particles);
+      filter->lambda_scale.segment(body.first_particle, body.particles) =
+          evaluate_at_particles(scene.solver.lambda_expression, position, particle_mesh(scene.bodies[b], body));
+    }
+    if (!(filter->lambda_scale.minCoeff() > 0.0)) throw InputError("lambda must be positive at every particle");
+  } catch (const InputError& error) {
+    throw InputError(scene.solver.lambda_where + ": " + error.what());
+  }
+  return filter;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       structure_(build_structure(scene)),
       forces_(std::make_unique<sim::Forces>(structure_, scene.gravity)),
-      initial_(start_of(scene, structure_)) {
-  for (const BodySpec& body : scene.bodies) surface_.push_back(sim::build_surface(body.mesh));
+      initial_(start_of(scene, structure_)),
+      filter_(filter_of(scene, structure_)) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    skin_.push_back(skin_of(scene.bodies[b]));
+    if (scene.bodies[b].fish) add_fish_forces(scene, structure_, static_cast<int>(b), *forces_);
+  }
+  if (scene.motes > 0) motes_.emplace(scene.motes, initial_.position, scene.water.velocity);
 }
 
 std::vector<render::DrawnBody> Simulation::drawn_bodies() const {
   std::vector<render::DrawnBody> drawn;
-  for (std::size_t b = 0; b < surface_.size(); ++b)
-    drawn.push_back({surface_[b], scene_.bodies[b].texture, scene_.bodies[b].colour});
+  for (std::size_t b = 0; b < skin_.size(); ++b)
+    drawn.push_back({skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour});
+  if (motes_) drawn.push_back(motes_->drawn());
   return drawn;
 }
 
 std::vector<sim::SurfaceState> Simulation::surfaces(const sim::State& state) const {
   std::vector<sim::SurfaceState> states;
-  for (const sim::Body& body : structure_.body)
-    states.push_back({state.position.middleRows(body.first_particle, body.particles).cast<float>(),
-                      state.velocity.middleRows(body.first_particle, body.particles).cast<float>()});
+  const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
+  for (std::size_t b = 0; b < skin_.size(); ++b) {
+    states.push_back(sim::pose(skin_[b], structure_.body[b], state));
+    states.back().position.rowwise() -= path;
+  }
+  if (motes_) states.push_back(motes_->at(state.time, path));
   return states;
+}
+
+// How far the followed body's centre of mass has come [m].
+Eigen::Vector3d Simulation::camera_path(const sim::State& state) const {
+  if (!scene_.followed) return Eigen::Vector3d::Zero();
+  const sim::Body& body = structure_.body[*scene_.followed];
+  const auto mass = structure_.mass.segment(body.first_particle, body.particles);
+  const Eigen::MatrixX3d way = (state.position - initial_.position).middleRows(body.first_particle, body.particles);
+  return way.transpose() * mass / mass.sum();
 }
 
 std::unique_ptr<sim::Solver> Simulation::make_solver(const StepChoice& choice) const {
   sim::SolverOptions options;
   options.method = scene_.solver.method;
   options.integrator = scene_.solver.integrator;
-  options.filter = scene_.solver.filter;
+  options.filter = filter_;
   options.step = choice.step;
   options.limit = choice.limit;
   return std::make_unique<sim::Solver>(structure_, *forces_, options, initial_);
@@ -60,7 +120,7 @@ std::unique_ptr<sim::Solver> Simulation::make_solver(const StepChoice& choice) c
 std::optional<double> Simulation::certified_limit(const sim::Linearisation& linearisation) const {
   const SolverSpec& solver = scene_.solver;
   std::optional<sim::Filter> filter;
-  if (solver.filter) filter.emplace(structure_, *solver.filter);
+  if (filter_) filter.emplace(structure_, *filter_);
   const sim::CertifiedStep certified =
       sim::certified_step(structure_, linearisation, structure_.rest_position, solver.method, solver.integrator,
                           filter ? &*filter : nullptr);
@@ -71,8 +131,8 @@ void Simulation::find_limits(StepChoice& choice) const {
   const SolverSpec& solver = scene_.solver;
   const sim::Linearisation at_rest = sim::linearise_at_rest(structure_);
   choice.k0 = sim::max_eigenvalue(structure_, at_rest.stiffness);
-  if (solver.filter)
-    choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.stiffness, sim::Filter(structure_, *solver.filter));
+  if (filter_)
+    choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.stiffness, sim::Filter(structure_, *filter_));
   choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
   choice.certified = certified_limit(at_rest);
   if (choice.certified) choice.any_shape = certified_limit(sim::linearise_any_shape(structure_));

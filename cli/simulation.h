@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "cli/motes.h"
 #include "cli/scene.h"
 #include "render/mesh_renderer.h"
 #include "sim/forces.h"
 #include "sim/power_method.h"
 #include "sim/solver.h"
+#include "sim/skin.h"
 #include "sim/state.h"
 #include "sim/structure.h"
-#include "sim/surface.h"
 
 namespace billow::cli {
 
@@ -41,10 +42,12 @@ class Simulation {
   const sim::Structure& structure() const { return structure_; }
   const sim::Forces& forces() const { return *forces_; }
   const sim::State& initial_state() const { return initial_; }
+  /// The scene's filter, its lambda evaluated at every particle; none where the scene does not filter.
+  const std::optional<sim::FilterOptions>& filter() const { return filter_; }
 
-  /// The drawn bodies, textures included.
+  /// The drawn bodies, textures included; motes, where the water has any, come last.
   std::vector<render::DrawnBody> drawn_bodies() const;
-  /// Where the drawn bodies are at `state`.
+  /// Where the drawn bodies are at `state`, as the camera sees it: moved along with the body that it follows.
   std::vector<sim::SurfaceState> surfaces(const sim::State& state) const;
 
   /// A solver at the scene's start, taking steps of `choice`.
@@ -54,6 +57,7 @@ class Simulation {
   StepChoice choose_step() const;
 
  private:
+  Eigen::Vector3d camera_path(const sim::State& state) const;
   std::optional<double> certified_limit(const sim::Linearisation& linearisation) const;
   void find_limits(StepChoice& choice) const;
 
@@ -61,7 +65,9 @@ class Simulation {
   sim::Structure structure_;
   std::unique_ptr<sim::Forces> forces_;
   sim::State initial_;
-  std::vector<sim::Surface> surface_;
+  std::optional<sim::FilterOptions> filter_;
+  std::vector<sim::Skin> skin_;
+  std::optional<Motes> motes_;
 };
 
 }  // namespace billow::cli
