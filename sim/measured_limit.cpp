@@ -40,11 +40,11 @@ MeasuredStep measured_step(const Structure& structure, const Forces& forces, Sol
     options.step = h;
     return runs_stably(structure, forces, options, initial, scale, measurement);
   };
-  double low = 0.0, high = std::min(0.5 * guess, largest);
+  double low = 0.0, high = std::min(0.8 * guess, largest);
   while (stable(high)) {
     low = high;
     if (low >= largest) return {low, true};
-    high = std::min(1.25 * low, largest);
+    high = std::min(1.2 * low, largest);
   }
   for (int halvings = 0; low == 0.0 && halvings < 6; ++halvings) {
     if (stable(0.5 * high))

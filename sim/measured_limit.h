@@ -31,7 +31,7 @@ struct MeasuredStep {
   bool unlimited = false;  // stable at `largest`, beyond which the search did not go
 };
 
-/// Climbs from half of `guess` [s] by a quarter each time to the first failure, at most `largest`, then bisects.
+/// Climbs from 0.8 of `guess` [s] by a fifth each time to the first failure, at most `largest`, then bisects.
 MeasuredStep measured_step(const Structure& structure, const Forces& forces, SolverOptions options,
                            const State& initial, double scale, double guess, double largest,
                            const MeasurementOptions& measurement);
