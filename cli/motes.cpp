@@ -9,7 +9,7 @@ namespace billow::cli {
 namespace {
 
 constexpr float reach = 1.5f;             // the box extends the bodies' by this many of its diagonals
-constexpr float relative_size = 0.0032f;  // radius, in diagonals of the bodies' box
+constexpr float relative_size = 0.0025f;  // radius, in diagonals of the bodies' box
 constexpr int corners = 6, faces = 8;
 
 Eigen::Matrix<float, corners, 3> octahedron() {

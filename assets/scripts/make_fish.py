@@ -13,7 +13,7 @@ PROFILE = [(0.000, 0.000, -0.004, 0.000), (0.008, 0.014, -0.016, 0.011), (0.030,
            (0.580, 0.088, -0.077, 0.047), (0.680, 0.061, -0.053, 0.033), (0.760, 0.041, -0.037, 0.022),
            (0.820, 0.032, -0.030, 0.014), (0.860, 0.030, -0.029, 0.008), (0.885, 0.022, -0.022, 0.003),
            (0.893, 0.000, 0.000, 0.000)]
-RINGS, SPOKES = 72, 36
+RINGS, SPOKES = 54, 28
 # Where the parts lie in the texture: u and v of the lower left corner, width, height.
 BODY_UV = (0.0, 0.40, 1.0, 0.60)
 CAUDAL_UV = (0.01, 0.02, 0.28, 0.34)
@@ -179,7 +179,7 @@ def eye(mesh, mirrored):
     height = 0.5 * (top(s0) - bottom(s0))
     z0 = half_width(s0) * math.sqrt(1 - ((y0 - 0.5 * (top(s0) + bottom(s0))) / height) ** 2) - 0.0035
     sign = -1 if mirrored else 1
-    rows, around = 8, 20
+    rows, around = 6, 16
 
     def uv(x, y):
         return mesh.uv(EYE_UV, 0.5 + 0.5 * x, 0.5 + 0.5 * y)
@@ -207,12 +207,12 @@ def eye(mesh, mirrored):
 def main():
     mesh = Mesh()
     body(mesh)
-    fin(mesh, "caudal_fin", CAUDAL_UV, (14, 24), caudal, (0, 0, 1), 0.007, -1)
-    fin(mesh, "dorsal_fin", DORSAL_UV, (6, 30), dorsal, (0, 0, 1), 0.006, 1)
-    fin(mesh, "anal_fin", ANAL_UV, (6, 14), anal, (0, 0, 1), 0.005, -1)
+    fin(mesh, "caudal_fin", CAUDAL_UV, (9, 18), caudal, (0, 0, 1), 0.007, -1)
+    fin(mesh, "dorsal_fin", DORSAL_UV, (5, 22), dorsal, (0, 0, 1), 0.006, 1)
+    fin(mesh, "anal_fin", ANAL_UV, (5, 10), anal, (0, 0, 1), 0.005, -1)
     for mirrored in (False, True):
-        fin(mesh, "pectoral_fins", PAIRED_UV, (10, 10), pectoral, (0.41, 0.0, 0.91), 0.004, -1, mirrored)
-        fin(mesh, "pelvic_fins", PAIRED_UV, (8, 8), pelvic, (0.0, 0.53, 0.85), 0.004, -1, mirrored)
+        fin(mesh, "pectoral_fins", PAIRED_UV, (7, 8), pectoral, (0.41, 0.0, 0.91), 0.004, -1, mirrored)
+        fin(mesh, "pelvic_fins", PAIRED_UV, (5, 6), pelvic, (0.0, 0.53, 0.85), 0.004, -1, mirrored)
         eye(mesh, mirrored)
     here = os.path.dirname(os.path.abspath(__file__))
     write_obj(os.path.join(here, "..", "meshes", "fish.obj"),
