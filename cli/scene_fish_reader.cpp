@@ -61,7 +61,7 @@ void check_spacing(const Node& node, const sim::MotionOptions& motion) {
 // One key: swimming straight ahead.
 NodePtr default_keys() {
   NodePtr key = make_map();
-  key->entries.push_back({"swim", {}, make_scalar("0.8")});
+  key->entries.push_back({"swim", {}, make_scalar("0.5")});
   return make_list({key});
 }
 
@@ -83,7 +83,7 @@ void read_motion(MapReader& fish, sim::MotionOptions& motion) {
   constexpr double degree = std::numbers::pi / 180.0;
   MapReader map = fish.map("motion", keys::motion);
   motion.transition = map.number("transition", motion.transition);
-  motion.lag = radians(map.number("lag", 70.0));
+  motion.lag = radians(map.number("lag", 90.0));
   motion.phase = radians(map.number("phase", motion.phase / degree));
   read_keys(map, motion);
 }
