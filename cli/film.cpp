@@ -267,7 +267,7 @@ Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice
       const sim::State state = solver->sample(sample->time);
       const Eigen::RowVector3d mean_square = state.velocity.colwise().squaredNorm() / state.velocity.rows();
       result.bounds.velocity_scale = std::max(result.bounds.velocity_scale, 2.0 * std::sqrt(mean_square.maxCoeff()));
-      if (sample->frame) extend(result.bounds.box, simulation.surfaces(state), scene.bodies.size());
+      extend(result.bounds.box, simulation.surfaces(state), scene.bodies.size());
       if (sample->frame) progress.update(*sample->frame, sample->time);
     }
   } catch (const DivergenceError&) {
