@@ -5,9 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <functional>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/version.h"
 #include "sim/error.h"
 
@@ -65,9 +67,12 @@ void add_render(CLI::App& app, Request& r) {
   add_scene_options(c, r.render.scene, r);
   c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
       ->type_name("DIR");
-  c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 1-250 or 7")->type_name("A-B");
+  CLI::Option* frames =
+      c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 1-250 or 7")->type_name("A-B");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
-  c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")->excludes(overwrite);
+  c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")
+      ->excludes(overwrite)
+      ->excludes(frames);
   c.add_option("--threads", r.render.threads, "Threads for drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
@@ -104,9 +109,10 @@ void add_stability(CLI::App& app, Request& r) {
   c.add_flag("--json", r.stability.scene.json, "Print JSON");
   c.add_flag("--measured", r.stability.measured, "Also measure the limits on whole non-linear runs (slow)");
   c.add_option("--at", r.stability.time, "Linearise the state that the scene reaches at this time (default: at rest)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
   c.final_callback([&r] {
+    if (!std::isfinite(r.stability.time)) throw CLI::ValidationError("--at", "needs a finite time");
     for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
     r.command = [&r] { return stability_command(r.stability); };
   });
@@ -147,7 +153,7 @@ std::string typed_command(int argc, char** argv) {
 }
 
 int report(const char* message, int status) {
-  fmt::print(stderr, "{}\n", message);
+  std::fputs((std::string(message) + "\n").c_str(), stderr);  // fputs: a closed stderr must not become another error
   return status;
 }
 
@@ -160,6 +166,8 @@ int run_command(const std::function<int()>& command) {
     return report(error.what(), exit_diverged);
   } catch (const OutputError& error) {
     return report(error.what(), exit_not_written);
+  } catch (const std::system_error& error) {  // what fmt::print throws
+    return report(error.what(), exit_not_written);
   } catch (const std::bad_alloc&) {
     return report("out of memory", exit_internal_fault);
   } catch (const std::exception& error) {
@@ -170,6 +178,7 @@ int run_command(const std::function<int()>& command) {
 }  // namespace
 
 int run(int argc, char** argv) {
+  ignore_write_signals();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);
@@ -181,7 +190,9 @@ int run(int argc, char** argv) {
     return asked_for_help ? exit_done : exit_usage;
   }
   request.render.command = typed_command(argc, argv);
-  return run_command(request.command);
+  const int status = run_command(request.command);
+  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
+  return printed || status != exit_done ? status : report("the output could not be written", exit_not_written);
 }
 
 }  // namespace billow::cli

@@ -60,8 +60,6 @@ int doctor_command() {
   line("fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   line("compiler", __VERSION__);
   line("processor", fmt::format("{} threads, {}", std::thread::hardware_concurrency(), cpu_features()));
-  line("gnuplot",
-       has_program("gnuplot") ? "found" : "missing: studies need it for plots (apt-get install gnuplot-nox)");
   line("ffmpeg", has_program("ffmpeg") ? "found" : "missing: only needed to turn frames into a video");
   try {
     line("GL", gl_description());

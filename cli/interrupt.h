@@ -1,10 +1,14 @@
-// SIGINT and SIGTERM as a request to finish.
+// SIGINT, SIGTERM and SIGHUP as a request to finish; broken pipes and file-size limits as ordinary write errors.
 #pragma once
 
 namespace billow::cli {
 
-/// From here on the first SIGINT or SIGTERM is remembered instead of ending the process; the second one ends it.
+/// From here on the first SIGINT, SIGTERM or SIGHUP is remembered instead of ending the process; the second one ends
+/// it. Call it when there is something to finish; before, the default action is the quickest clean end.
 void catch_interrupts();
+
+/// A closed pipe or a file-size limit from here on is an error of the write that meets it, not the end of the process.
+void ignore_write_signals();
 
 /// The signal that asked for the end, or 0.
 int interrupted_by();

@@ -40,18 +40,27 @@ void remove_earlier_run(const fs::path& folder) {
   for (const render::View view : {render::View::textured, render::View::velocity}) {
     std::vector<fs::path> frames;
     for (const auto& entry : fs::directory_iterator(folder / name(view), error))
-      if (is_frame(entry.path())) frames.push_back(entry.path());
+      if (entry.is_regular_file(error) && is_frame(entry.path())) frames.push_back(entry.path());
     for (const fs::path& frame : frames) fs::remove(frame, error);
-    fs::remove(folder / name(view), error);  // only if it is empty now
+    if (fs::is_directory(folder / name(view), error))
+      fs::remove(folder / name(view), error);  // only if it is empty now
   }
-  for (const char* file : {"velocity_strip.png", "run.json"}) fs::remove(folder / file, error);
+  for (const char* file : {"velocity_strip.png", "run.json"})
+    if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
+}
+
+// The scene hash that a run's record names; empty where there is no such record.
+std::string hash_in(const fs::path& record) {
+  std::error_code error;
+  if (!fs::is_regular_file(record, error)) return "";
+  std::ifstream file(record);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json::json_pointer place("/scene/hash");
+  return json.is_object() && json.contains(place) && json[place].is_string() ? json[place].get<std::string>() : "";
 }
 
 void check_same_run(const fs::path& record, const std::string& scene_hash) {
-  std::ifstream file(record);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  const std::string hash = json.is_object() && json.contains("scene") ? json["scene"].value("hash", "") : "";
-  if (hash == scene_hash) return;
+  if (hash_in(record) == scene_hash) return;
   throw OutputError(fmt::format("{} is not of this scene, so its run cannot be resumed; use --overwrite to replace it",
                                 record.string()));
 }
@@ -62,16 +71,20 @@ std::string_view name(render::View view) { return view == render::View::textured
 
 OutputFolder::OutputFolder(fs::path folder, Existing existing, const std::string& scene_hash,
                            const std::vector<render::View>& views)
-    : folder_(std::move(folder)), resume_(existing == Existing::resume) {
+    : folder_(std::move(folder)), views_(views), existing_(existing) {
   const bool empty = is_empty_or_missing(folder_);
   if (!empty && existing == Existing::refuse)
     throw OutputError(
         fmt::format("{} already holds files; use --overwrite to replace a run there, --resume to finish "
                     "it, or -o for another folder",
                     folder_.string()));
-  if (!empty && resume_) check_same_run(record(), scene_hash);
-  if (!empty && existing == Existing::overwrite) remove_earlier_run(folder_);
-  for (const render::View view : views) make_folder(folder_ / name(view));
+  if (!empty && existing == Existing::resume) check_same_run(record(), scene_hash);
+  make_folder(folder_);
+}
+
+void OutputFolder::begin_run() {
+  if (existing_ == Existing::overwrite) remove_earlier_run(folder_);
+  for (const render::View view : views_) make_folder(folder_ / name(view));
 }
 
 fs::path OutputFolder::frame(render::View view, long frame) const {
@@ -80,7 +93,8 @@ fs::path OutputFolder::frame(render::View view, long frame) const {
 
 bool OutputFolder::keeps(render::View view, long number) const {
   std::error_code error;
-  return resume_ && fs::exists(frame(view, number), error);
+  const fs::path file = frame(view, number);
+  return existing_ == Existing::resume && fs::is_regular_file(file, error) && fs::file_size(file, error) > 0;
 }
 
 }  // namespace billow::cli

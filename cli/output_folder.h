@@ -17,10 +17,13 @@ enum class Existing { refuse, overwrite, resume };
 class OutputFolder {
  public:
   /// Makes the folder. Throws OutputError when it holds anything and `existing` is refuse, or when it cannot be made.
-  /// `overwrite` removes what an earlier run wrote there, and nothing else. `resume` keeps frames of a run whose
-  /// run.json names `scene_hash`, and refuses any other folder.
+  /// `resume` keeps frames of a run whose run.json names `scene_hash`, and refuses any other folder.
   OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
                const std::vector<render::View>& views);
+
+  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, strip and record that an
+  /// earlier run wrote there, and nothing else.
+  void begin_run();
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path frame(render::View view, long frame) const;
@@ -31,7 +34,8 @@ class OutputFolder {
 
  private:
   std::filesystem::path folder_;
-  bool resume_ = false;
+  std::vector<render::View> views_;
+  Existing existing_;
 };
 
 /// The view's name, also of its folder.

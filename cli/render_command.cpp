@@ -1,6 +1,8 @@
 // billow render: a scene's frames, strip and record.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -10,6 +12,7 @@
 #include "cli/run_record.h"
 #include "render/atomic_file.h"
 #include "sim/error.h"
+#include "sim/measured_limit.h"
 
 namespace billow::cli {
 
@@ -32,8 +35,36 @@ void say_start(const Simulation& simulation, const Scene& scene, const StepChoic
   fmt::print(stderr, "{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})\n", scene.file.string(),
              simulation.structure().particles(), simulation.structure().springs(), choice.k0.value,
              sim::name(scene.solver.method), choice.step, choice.bound);
+  if (choice.limit && choice.step > *choice.limit)
+    fmt::print(stderr, "warning: the step is above the certified limit of {:.4g} s; the run may diverge\n",
+               *choice.limit);
   if (!choice.k0.converged)
     fmt::print(stderr, "warning: the power method did not settle; k0 may be a little too low\n");
+}
+
+// How far the energy climbed above its lowest value so far, as a share of what the run can turn over.
+double energy_climb(const FilmReport& report, double scale) {
+  double lowest = INFINITY, climb = 0.0;
+  for (const FrameRecord& frame : report.frames) {
+    const double energy = frame.kinetic + frame.potential;
+    lowest = std::min(lowest, energy);
+    climb = std::max(climb, energy - lowest);
+  }
+  return scale > 0.0 ? climb / scale : 0.0;
+}
+
+// Muscles put energy in, so only passive scenes are held to it.
+void warn_of_energy(const Scene& scene, const Simulation& simulation, const FilmReport& report) {
+  for (const BodySpec& body : scene.bodies)
+    if (body.fish) return;
+  const double climb = energy_climb(report, sim::energy_scale(simulation.structure(), simulation.forces(),
+                                                              scene.gravity, simulation.initial_state()));
+  if (climb > 0.05)
+    fmt::print(
+        stderr,
+        "warning: the energy climbed by {:.0f} % of the weight times the size, which nothing physical does; take a "
+        "smaller step, or the conserving form for a force filter\n",
+        100.0 * climb);
 }
 
 void say_end(const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
@@ -55,21 +86,24 @@ void say_end(const FilmReport& report, const Survey& survey, const OutputFolder&
 }  // namespace
 
 int render_command(const RenderOptions& options) {
-  catch_interrupts();
   const Scene scene = read_scene(options.scene, options.overrides);
   const FrameRange range = range_of(options, scene);
   const Simulation simulation(scene);
   const StepChoice choice = simulation.choose_step();
-  const OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
-  render::write_file_atomically(folder.record(), begun_record(scene, options.command));
+  catch_interrupts();
+  OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
   say_start(simulation, scene, choice);
 
   Progress progress(options.progress);
   const Survey found = survey(scene, simulation, choice, progress);
+  if (interrupted_by() != 0) return 128 + interrupted_by();
+  folder.begin_run();
+  render::write_file_atomically(folder.record(), begun_record(scene, options.command));
   const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   const FilmReport report = make_film(scene, simulation, choice, found.bounds, range, folder, threads, progress);
   render::write_file_atomically(folder.record(),
                                 finished_record(scene, options.command, simulation, choice, found, report));
+  warn_of_energy(scene, simulation, report);
   say_end(report, found, folder);
   if (report.interrupted_by) return 128 + report.interrupted_by;
   if (report.divergence) throw DivergenceError(*report.divergence);

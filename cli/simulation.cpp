@@ -135,7 +135,8 @@ void Simulation::find_limits(StepChoice& choice) const {
     choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.stiffness, sim::Filter(structure_, *filter_));
   choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
   choice.certified = certified_limit(at_rest);
-  if (choice.certified) choice.any_shape = certified_limit(sim::linearise_any_shape(structure_));
+  if (choice.certified && solver.step_rule != StepRule::fixed)  // a given step is only compared with the first
+    choice.any_shape = certified_limit(sim::linearise_any_shape(structure_));
 }
 
 StepChoice Simulation::choose_step() const {

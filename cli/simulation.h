@@ -11,8 +11,8 @@
 #include "render/mesh_renderer.h"
 #include "sim/forces.h"
 #include "sim/power_method.h"
-#include "sim/solver.h"
 #include "sim/skin.h"
+#include "sim/solver.h"
 #include "sim/state.h"
 #include "sim/structure.h"
 

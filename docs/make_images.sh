@@ -20,5 +20,5 @@ one irregular 40 textured irregular "${small[@]}"
 one two_bodies 30 textured two_bodies "${small[@]}"
 one choi_ko 100 textured choi_ko "${small[@]}"
 one fish 60 textured fish "${small[@]}"
-./billow render scenes/drape.yaml -o "$work/film" --progress none -D duration=5 -D 'render.size=[64, 36]' -D 'render.views=[velocity]'
+./billow render scenes/drape.yaml -o "$work/film" --progress none -D duration=5 -D strip.step=0.025 -D 'render.size=[64, 36]' -D 'render.views=[velocity]'
 cp "$work/film/velocity_strip.png" docs/images/drape_strip.png

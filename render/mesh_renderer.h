@@ -15,7 +15,7 @@ namespace billow::render {
 /// One body as the renderer needs it for a whole run.
 struct DrawnBody {
   sim::Surface surface;
-  Image texture;                             // empty: plain `colour`
+  Image texture;                                      // empty: plain `colour`
   Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB in [0, 1]
 };
 

@@ -24,7 +24,7 @@ struct CertificateOptions {
 
 /// What a search for the largest stable step found.
 struct CertifiedStep {
-  double step = 0.0;       // [s] largest step found stable; 0 when even a twentieth of 2/sqrt(k0) grows
+  double step = 0.0;       // [s] largest step found stable; 0 when even 0.08 of 2/sqrt(k0) grows
   bool unlimited = false;  // stable at every step tried; `step` is then the largest one tried
   int trials = 0;
 };

@@ -66,6 +66,8 @@ class Scanner {
 
   double number(std::string_view word) const {
     const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+    // assimp drops a line that begins a number so, and every later vertex would take another's place.
+    if (digits.starts_with('.')) fail(line_, fmt::format("'{0}' has no digit before its point; write 0{0}", word));
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || (error != std::errc() && error != std::errc::result_out_of_range))

@@ -21,7 +21,10 @@ EigenvalueEstimate max_eigenvalue(const Structure& structure, const StiffnessMat
   EigenvalueEstimate estimate;
   for (int k = 1; k <= options.max_iterations && !estimate.converged; ++k) {
     const double norm = v.norm();
-    if (norm == 0.0) return {0.0, k, true};  // nothing is free to move, or nothing resists
+    if (norm == 0.0) {  // nothing is free to move, or nothing resists
+      if (mode) *mode = v;
+      return {0.0, k, true};
+    }
     v /= norm;
     stiffness.multiply(root.asDiagonal() * v, product);
     product = root.asDiagonal() * product;

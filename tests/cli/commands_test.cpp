@@ -44,6 +44,12 @@ TEST_F(Commands, CheckLocatesAFault) {
   EXPECT_EQ(run({"check", "nowhere.yaml"}).status, 4);
 }
 
+TEST_F(Commands, RefuseTimesAndMaterialsWithoutAnEnd) {
+  EXPECT_EQ(run({"stability", "scene.yaml", "--at", "nan"}).status, 2);
+  EXPECT_LE(run({"check", "scene.yaml", "-D", "bodies.0.cloth.stiffness={structural: 1e-300}"}).status, 4);
+  EXPECT_LE(run({"check", "scene.yaml", "-D", "bodies.0.cloth.mass=1e-310"}).status, 4);
+}
+
 TEST_F(Commands, StructureListsParticlesAndSprings) {
   const ToolResult result = run({"structure", "scene.yaml", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;

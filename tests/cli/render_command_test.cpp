@@ -40,10 +40,11 @@ class RenderCommand : public testing::Test {
 
   void scene(const std::string& text) { folder_.write("scene.yaml", text); }
 
-  ToolResult render(std::vector<std::string> more = {}, double interrupt_after = -1.0) {
+  ToolResult render(std::vector<std::string> more = {}, double interrupt_after = -1.0,
+                    const fs::path& interrupt_when = {}) {
     std::vector<std::string> arguments{"render", "scene.yaml", "-o", "film", "--progress", "plain"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_tool(arguments, folder_.path(), interrupt_after);
+    return run_tool(arguments, folder_.path(), interrupt_after, interrupt_when);
   }
 
   fs::path film(const std::string& file) const { return folder_.path() / "film" / file; }
@@ -151,11 +152,27 @@ TEST_F(RenderCommand, StopsAtADivergenceAndKeepsTheFramesBeforeIt) {
 }
 
 TEST_F(RenderCommand, FinishesCleanlyWhenInterrupted) {
-  scene(small_scene("{method: fb_euler, step: 0.0005}", 400.0));
-  const ToolResult result = render({}, 2.0);
+  scene(small_scene("{method: fb_euler}", 200.0));
+  const ToolResult result = render({}, 0.1, film("velocity/frame_0003.png"));
   EXPECT_EQ(result.status, 130) << result.errors;
   EXPECT_EQ(record()["status"], "interrupted");
+  EXPECT_GE(whole_images("textured"), 3);
+  EXPECT_LT(whole_images("textured"), 5000);
   EXPECT_EQ(whole_images("textured") + whole_images("velocity"), record()["images_written"]);
+}
+
+TEST_F(RenderCommand, KeepsTheEarlierFilmWhenInterruptedBeforeTheFirstFrame) {
+  ASSERT_EQ(render().status, 0);
+  scene(small_scene("{method: fb_euler, step: 0.000002}", 400.0));
+  EXPECT_EQ(render({"--overwrite"}, 1.0).status, 130);  // within its survey
+  EXPECT_EQ(whole_images("textured"), 11);
+  EXPECT_EQ(record()["status"], "done");
+}
+
+TEST_F(RenderCommand, SurvivesADamagedRecord) {
+  ASSERT_EQ(render().status, 0);
+  folder_.write("film/run.json", "{\"scene\": 5}");
+  EXPECT_EQ(render({"--resume"}).status, 6);
 }
 
 TEST_F(RenderCommand, ReportsAFolderThatCannotBeMade) {
@@ -190,6 +207,7 @@ TEST_F(RenderCommand, SaysWhatIsWrongWithItsArguments) {
   EXPECT_EQ(render({"--frames", "5-3"}).status, 2);
   EXPECT_EQ(render({"-D", "no-equals-sign"}).status, 2);
   EXPECT_EQ(render({"--overwrite", "--resume"}).status, 2);
+  EXPECT_EQ(render({"--resume", "--frames", "2"}).status, 2);
   EXPECT_EQ(render({"--threads", "0"}).status, 2);
   EXPECT_EQ(render({"--frames", "1-12"}).status, 4);
   EXPECT_EQ(run_tool({"rendr", "scene.yaml"}, folder_.path()).status, 2);

@@ -41,7 +41,8 @@ TEST(SceneFaults, Keys) {
       {"billow: 1\n", "", "scene.yaml:1:1: the scene needs the key 'billow'"},
       {"      mesh: cloth.obj\n", "", "scene.yaml:7:7: cloth needs the key 'mesh'"},
       {"bodies:\n", "objects:\n",
-       "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, water, solver, "
+       "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, water, "
+       "solver, "
        "render, strip"},
       {"duration: 2", "? [a, b]\n: 2", "scene.yaml:2:3: a key must be a word"},
       {"duration: 2", "? {a: b}\n: 2", "scene.yaml:2:3: a key must be a word"},

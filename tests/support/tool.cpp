@@ -35,11 +35,14 @@ void redirect(const fs::path& file, int descriptor) {
 
 }  // namespace
 
-ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& folder, double interrupt_after) {
+ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& folder, double interrupt_after,
+                    const fs::path& interrupt_when) {
   const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
   const pid_t child = fork();
   if (child == 0) become_tool(arguments, folder, out, err);
   if (interrupt_after >= 0.0) {
+    for (int k = 0; k < 6000 && !interrupt_when.empty() && !fs::exists(interrupt_when); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
     kill(child, SIGINT);
   }

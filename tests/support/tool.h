@@ -12,9 +12,10 @@ struct ToolResult {
   std::string output, errors;
 };
 
-/// Runs the tool with `arguments` in `folder` and waits. With `interrupt_after` [s] >= 0 sends SIGINT then.
+/// Runs the tool with `arguments` in `folder` and waits. With `interrupt_after` [s] >= 0 sends SIGINT then,
+/// or, with `interrupt_when`, so long after that file has appeared.
 ToolResult run_tool(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                    double interrupt_after = -1.0);
+                    double interrupt_after = -1.0, const std::filesystem::path& interrupt_when = {});
 
 std::string read_text(const std::filesystem::path& file);
 
