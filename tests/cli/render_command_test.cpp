@@ -144,7 +144,7 @@ TEST_F(RenderCommand, StopsAtADivergenceAndKeepsTheFramesBeforeIt) {
   EXPECT_EQ(result.status, 5);
   EXPECT_NE(result.errors.find("the simulation diverged at step "), std::string::npos) << result.errors;
   EXPECT_NE(result.errors.find("particle "), std::string::npos);
-  EXPECT_NE(result.errors.find("the limit for fb_euler is 0.005"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("the limit for fb_euler is 0.006"), std::string::npos) << result.errors;
   EXPECT_EQ(record()["status"], "diverged");
   const int frames = whole_images("textured");
   EXPECT_GE(frames, 1);
