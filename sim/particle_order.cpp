@@ -4,49 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
-#include "sim/planar_uv.h"
+#include "sim/flat_layout.h"
 
 namespace billow::sim {
 
 namespace {
 
-// One place (v x 2) per vertex: its first texture coordinate, scaled so that all lie in [0, 1]^2.
-Eigen::MatrixX2d flat_positions(const Mesh& mesh) {
-  if (mesh.uv.empty()) return planar_uv(mesh);
-  Eigen::MatrixX2d flat = Eigen::MatrixX2d::Zero(mesh.vertices(), 2);
-  for (std::size_t f = mesh.face.size(); f-- > 0;)
-    for (int c = 0; c < corner_count(mesh.face[f]); ++c)
-      flat.row(mesh.face[f][c]) = mesh.uv[f][c].cast<double>().transpose();
-  const Eigen::RowVector2d low = flat.colwise().minCoeff(), size = flat.colwise().maxCoeff() - low;
-  for (int axis = 0; axis < 2; ++axis)
-    flat.col(axis) = (flat.col(axis).array() - low(axis)) / std::max(size(axis), 1e-12);
-  return flat;
-}
-
 using Rows = std::vector<std::vector<int>>;
-
-// Vertices in rows of equal height from the top, each from left to right.
-Rows rows_of(const Eigen::MatrixX2d& flat) {
-  constexpr double same_row = 1e-4;
-  std::vector<int> order(flat.rows());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return flat(a, 1) > flat(b, 1); });
-  Rows rows;
-  for (const int v : order) {
-    if (rows.empty() || flat(rows.back().front(), 1) - flat(v, 1) > same_row) rows.emplace_back();
-    rows.back().push_back(v);
-  }
-  for (auto& row : rows)
-    std::stable_sort(row.begin(), row.end(), [&](int a, int b) { return flat(a, 0) < flat(b, 0); });
-  return rows;
-}
-
-bool is_grid(const Rows& rows) {
-  return rows.size() > 1 && rows.front().size() > 1 &&
-         std::all_of(rows.begin(), rows.end(), [&](const auto& row) { return row.size() == rows.front().size(); });
-}
 
 std::vector<int> boustrophedon(Rows rows) {
   std::vector<int> order;
@@ -86,9 +51,9 @@ std::vector<int> hilbert_order(const Eigen::MatrixX2d& flat) {
 }  // namespace
 
 std::vector<int> zigzag_order(const Mesh& mesh) {
-  const Eigen::MatrixX2d flat = flat_positions(mesh);
-  Rows rows = rows_of(flat);
-  return is_grid(rows) ? boustrophedon(std::move(rows)) : hilbert_order(flat);
+  const Eigen::MatrixX2d flat = flat_layout(mesh).vertex;
+  Rows rows = grid_rows(flat);
+  return rows.empty() ? hilbert_order(flat) : boustrophedon(std::move(rows));
 }
 
 }  // namespace billow::sim
