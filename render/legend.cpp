@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 #include <string>
 
+#include "render/canvas.h"
 #include "render/colour_map.h"
 
 namespace billow::render {
@@ -21,9 +20,6 @@ constexpr double kPadding = 14.0, kNameWidth = 16.0, kTitleHeight = 24.0, kTickH
 constexpr double kFontSize = 13.0;
 constexpr double kMargin = 20.0;
 constexpr double kInk = 0.16, kPaper = 0.98, kPaperAlpha = 0.82;
-
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 int bar_count(VelocityColour colour) { return colour == VelocityColour::components ? 3 : 1; }
 
@@ -37,27 +33,6 @@ double legend_height(VelocityColour colour) {
 
 // Below this, text cannot be read.
 double legend_scale(int frame_height) { return std::max(0.7, frame_height / 720.0); }
-
-// Grey antialiasing and unhinted metrics: the same picture whatever the machine's font settings are.
-void choose_font(cairo_t* pen) {
-  cairo_select_font_face(pen, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(pen, kFontSize);
-  cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(pen, options);
-  cairo_font_options_destroy(options);
-}
-
-// `align`: 0 starts at x, 1/2 is centred on it, 1 ends there.
-void write_text(cairo_t* pen, const std::string& text, double x, double baseline, double align) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(pen, text.c_str(), &extents);
-  cairo_set_source_rgb(pen, kInk, kInk, kInk);
-  cairo_move_to(pen, x - align * extents.x_advance, baseline);
-  cairo_show_text(pen, text.c_str());
-}
 
 // The colour at `t` in [0, 1] along the bar of `axis`: motion along that axis alone, or speed.
 Rgb8 bar_colour(VelocityColour colour, int axis, double t) {
@@ -94,45 +69,29 @@ std::string number(double value) {
   return value < 0.0 ? "\u2212" + digits : digits;
 }
 
-void draw_ticks(cairo_t* pen, VelocityColour colour, double velocity_range, double x, double y) {
+void draw_ticks(Canvas& canvas, VelocityColour colour, double velocity_range, double x, double y) {
   const double low = colour == VelocityColour::components ? -velocity_range : 0.0;
   for (int tick = 0; tick <= 2; ++tick) {
     const double t = 0.5 * tick, at = x + t * kBarWidth;
-    cairo_rectangle(pen, at - 0.5, y + 2.0, 1.0, 4.0);
-    cairo_set_source_rgb(pen, kInk, kInk, kInk);
-    cairo_fill(pen);
+    canvas.fill_rectangle(at - 0.5, y + 2.0, 1.0, 4.0, kInk);
     const double value = low + t * (velocity_range - low);
-    write_text(pen, (value > 0.0 && low < 0.0 ? "+" : "") + number(value), at, y + kTickHeight, t);
+    canvas.write((value > 0.0 && low < 0.0 ? "+" : "") + number(value), at, y + kTickHeight, t);
   }
 }
 
-void draw_all(cairo_t* pen, VelocityColour colour, double velocity_range) {
+void draw_all(Canvas& canvas, VelocityColour colour, double velocity_range) {
   const bool components = colour == VelocityColour::components;
   const double x = kPadding + (components ? kNameWidth : 0.0);
   double y = kPadding;
-  draw_paper(pen, legend_width(colour), legend_height(colour));
-  write_text(pen, components ? "velocity along" : "speed", kPadding, y + kFontSize, 0.0);
-  write_text(pen, "m/s", x + kBarWidth, y + kFontSize, 1.0);
+  draw_paper(canvas.pen(), legend_width(colour), legend_height(colour));
+  canvas.write(components ? "velocity along" : "speed", kPadding, y + kFontSize, 0.0);
+  canvas.write("m/s", x + kBarWidth, y + kFontSize, 1.0);
   y += kTitleHeight;
   for (int axis = 0; axis < bar_count(colour); ++axis, y += kBarPitch) {
-    if (components) write_text(pen, std::string(1, "xyz"[axis]), kPadding, y + kBarHeight - 1.0, 0.0);
-    draw_bar(pen, colour, axis, x, y);
+    if (components) canvas.write(std::string(1, "xyz"[axis]), kPadding, y + kBarHeight - 1.0, 0.0);
+    draw_bar(canvas.pen(), colour, axis, x, y);
   }
-  draw_ticks(pen, colour, velocity_range, x, y - kBarPitch + kBarHeight);
-}
-
-// Cairo keeps native-endian 0xAARRGGBB words.
-Image to_rgba(cairo_surface_t* surface) {
-  Image image(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), 4);
-  cairo_surface_flush(surface);
-  for (int y = 0; y < image.height; ++y) {
-    const unsigned char* line = cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
-    const auto* words = reinterpret_cast<const std::uint32_t*>(line);
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 4; ++c)
-        image.row(y)[4 * x + c] = static_cast<std::uint8_t>(words[x] >> (c < 3 ? 16 - 8 * c : 24));
-  }
-  return image;
+  draw_ticks(canvas, colour, velocity_range, x, y - kBarPitch + kBarHeight);
 }
 
 }  // namespace
@@ -141,14 +100,10 @@ Image draw_legend(VelocityColour colour, double velocity_range, int frame_height
   const double scale = legend_scale(frame_height);
   const int width = static_cast<int>(std::ceil(scale * legend_width(colour)));
   const int height = static_cast<int>(std::ceil(scale * legend_height(colour)));
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), cairo_surface_destroy);
-  const Pen pen(cairo_create(surface.get()), cairo_destroy);
-  cairo_scale(pen.get(), scale, scale);
-  choose_font(pen.get());
-  draw_all(pen.get(), colour, velocity_range);
-  if (const cairo_status_t status = cairo_status(pen.get()); status != CAIRO_STATUS_SUCCESS)
-    throw std::runtime_error(fmt::format("the legend cannot be drawn: {}", cairo_status_to_string(status)));
-  return to_rgba(surface.get());
+  Canvas canvas(width, height, scale);
+  canvas.set_font(kFontSize);
+  draw_all(canvas, colour, velocity_range);
+  return canvas.rgba();
 }
 
 void add_legend(Image& frame, const Image& legend) {
