@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "cli/command_text.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/version.h"
@@ -49,6 +50,7 @@ struct Request {
   SceneOptions scene;
   StabilityOptions stability;
   CompareOptions compare;
+  StudyOptions study;
   std::vector<std::string> overrides;
   std::string frames;
   bool overwrite = false, resume = false;
@@ -127,6 +129,24 @@ void add_compare(CLI::App& app, Request& r) {
   c.final_callback([&r] { r.command = [&r] { return compare_command(r.compare); }; });
 }
 
+void add_study(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("study", "Run a scene over axes of variation; make pictures, tables and a page");
+  c.add_option("STUDY", r.study.study, "Study file (YAML)")->required();
+  c.add_option("-o,--output", r.study.output, "Folder to write to (default: out/ and the study's name)")
+      ->type_name("DIR");
+  CLI::Option* list = c.add_flag("--list", r.study.list, "Print the runs and whether they are finished");
+  CLI::Option* only =
+      c.add_option("--only", r.study.only, "Do this run alone")->check(CLI::Range(1, 1000000))->type_name("N");
+  CLI::Option* collect = c.add_flag("--collect", r.study.collect, "Assemble the finished runs, without running any");
+  CLI::Option* overwrite = c.add_flag("--overwrite", r.study.overwrite, "Run again what is finished");
+  list->excludes(only)->excludes(collect)->excludes(overwrite);
+  collect->excludes(only)->excludes(overwrite);
+  c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  c.final_callback([&r] { r.command = [&r] { return study_command(r.study); }; });
+}
+
 void add_commands(CLI::App& app, Request& r) {
   app.set_version_flag("--version", fmt::format("billow {}", version()));
   app.require_subcommand(1);
@@ -136,6 +156,7 @@ void add_commands(CLI::App& app, Request& r) {
                     check_command);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
   add_stability(app, r);
+  add_study(app, r);
   add_compare(app, r);
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
     r.command = doctor_command;
@@ -143,13 +164,9 @@ void add_commands(CLI::App& app, Request& r) {
 }
 
 std::string typed_command(int argc, char** argv) {
-  std::string command = "billow";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool quote = argument.empty() || argument.find_first_of(" '\"\\$`*?[]{}()<>|&;#~!\n\t") != std::string::npos;
-    command += quote ? " '" + argument + "'" : " " + argument;
-  }
-  return command;
+  std::vector<std::string> words = {"billow"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  return command_line(words);
 }
 
 int report(const char* message, int status) {

@@ -10,6 +10,7 @@
 #include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
+#include "cli/simulation.h"
 
 namespace billow::cli {
 
@@ -24,6 +25,10 @@ struct RenderOptions {
   std::string command;  // as it was typed, for run.json
 };
 int render_command(const RenderOptions& options);
+/// The same for a scene that has been read and whose step has been chosen; options.scene and .overrides are not looked
+/// at.
+int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+                 const RenderOptions& options);
 
 struct SceneOptions {
   std::filesystem::path scene;
@@ -46,6 +51,17 @@ struct CompareOptions {
   bool json = false;
 };
 int compare_command(const CompareOptions& options);
+
+struct StudyOptions {
+  std::filesystem::path study;
+  std::filesystem::path output;  // empty: out/ and the study's name
+  bool list = false;             // print the runs and do nothing
+  std::optional<int> only;       // this run alone, without assembling
+  bool collect = false;          // assemble what is there, without running
+  bool overwrite = false;        // run again what is finished
+  int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
+};
+int study_command(const StudyOptions& options);
 
 int doctor_command();
 

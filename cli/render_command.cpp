@@ -87,9 +87,13 @@ void say_end(const FilmReport& report, const Survey& survey, const OutputFolder&
 
 int render_command(const RenderOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
-  const FrameRange range = range_of(options, scene);
+  range_of(options, scene);  // a bad one is found before the step is certified
   const Simulation simulation(scene);
-  const StepChoice choice = simulation.choose_step();
+  return render_scene(scene, simulation, simulation.choose_step(), options);
+}
+
+int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+                 const RenderOptions& options) {
   catch_interrupts();
   OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
   say_start(simulation, scene, choice);
@@ -100,7 +104,8 @@ int render_command(const RenderOptions& options) {
   folder.begin_run();
   render::write_file_atomically(folder.record(), begun_record(scene, options.command));
   const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  const FilmReport report = make_film(scene, simulation, choice, found.bounds, range, folder, threads, progress);
+  const FilmReport report =
+      make_film(scene, simulation, choice, found.bounds, range_of(options, scene), folder, threads, progress);
   render::write_file_atomically(folder.record(),
                                 finished_record(scene, options.command, simulation, choice, found, report));
   warn_of_energy(scene, simulation, report);

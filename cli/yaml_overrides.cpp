@@ -28,7 +28,7 @@ struct Path {
 };
 
 Path parse_override(const Override& change) {
-  Path path{"-D " + change.path, {}, nullptr};
+  Path path{change.where.empty() ? "-D " + change.path : change.where, {}, nullptr};
   for (std::size_t begin = 0; begin <= change.path.size();) {
     const std::size_t end = std::min(change.path.find('.', begin), change.path.size());
     path.keys.push_back(change.path.substr(begin, end - begin));
@@ -36,7 +36,7 @@ Path parse_override(const Override& change) {
     if (path.keys.size() > max_path_keys) path.fail(fmt::format("a path of more than {} keys", max_path_keys));
     begin = end + 1;
   }
-  path.value = parse_yaml_value(change.value, path.where);
+  path.value = change.node ? change.node : parse_yaml_value(change.value, path.where);
   return path;
 }
 

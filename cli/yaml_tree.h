@@ -50,5 +50,7 @@ NodePtr make_map(std::string where = {});
 
 /// The tree as YAML that parse_yaml reads back to the same tree: maps in blocks, lists of scalars on one line.
 std::string to_yaml(const Node& root);
+/// The same on one line, as the value of a -D.
+std::string to_yaml_line(const Node& node);
 
 }  // namespace billow::cli

@@ -37,19 +37,12 @@ bool holds_map(const Node& node) {
          std::any_of(node.items.begin(), node.items.end(), [](const NodePtr& item) { return holds_map(*item); });
 }
 
-std::string on_one_line(const Node& node) {
-  if (node.kind != Node::Kind::list) return scalar(node);
-  std::string out = "[";
-  for (const NodePtr& item : node.items) out += (out.size() > 1 ? ", " : "") + on_one_line(*item);
-  return out + "]";
-}
-
 void write(const Node& node, const std::string& indent, std::string& out);
 
 // What stands after "key:" or "-".
 void write_value(const Node& node, const std::string& indent, std::string& out) {
   if (!holds_map(node)) {
-    out += " " + on_one_line(node) + "\n";
+    out += " " + to_yaml_line(node) + "\n";
     return;
   }
   out += "\n";
@@ -71,6 +64,16 @@ void write(const Node& node, const std::string& indent, std::string& out) {
 }
 
 }  // namespace
+
+std::string to_yaml_line(const Node& node) {
+  if (node.kind == Node::Kind::scalar || node.kind == Node::Kind::null) return scalar(node);
+  const bool list = node.kind == Node::Kind::list;
+  std::string out = list ? "[" : "{";
+  for (const NodePtr& item : node.items) out += (out.size() > 1 ? ", " : "") + to_yaml_line(*item);
+  for (const Entry& entry : node.entries)
+    out += (out.size() > 1 ? ", " : "") + entry.key + ": " + to_yaml_line(*entry.value);
+  return out + (list ? "]" : "}");
+}
 
 std::string to_yaml(const Node& root) {
   std::string out;
