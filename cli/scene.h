@@ -64,6 +64,14 @@ struct StripSpec {
   StripOrder order = StripOrder::zigzag;
 };
 
+/// The spatial spectrum of one cloth's velocities, and the image that it is taken of.
+struct SpectrumSpec {
+  double step = 0.1;    // [s] between the samples that the mean is made of
+  double at = 1.0;      // [s] of the velocity image that is shown
+  double range = 80.0;  // [dB] from white, the strongest, to black
+  int body = 0;
+};
+
 struct Scene {
   std::filesystem::path file;
   double duration = 10.0;                    // [s] > 0
@@ -75,6 +83,7 @@ struct Scene {
   SolverSpec solver;
   render::Settings render;
   std::optional<StripSpec> strip;
+  std::optional<SpectrumSpec> spectrum;
   std::string effective;  // the whole scene with every default written out, as YAML that reads back to this scene
   std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
 };

@@ -20,7 +20,8 @@ const Section scene{"the scene",
                      {"water"},
                      {"solver"},
                      {"render"},
-                     {"strip", {}, {"none"}}}};
+                     {"strip", {}, {"none"}},
+                     {"spectrum", {}, {"none"}}}};
 
 const Section body{"body", {{"name"}, {"cloth"}, {"fish"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
 
@@ -134,6 +135,10 @@ const Section background{"background", {{"top", between(0, 1)}, {"bottom", betwe
 
 const Section strip{"strip", {{"step", above_0(1e5, "s")}, {"order", {}, {"zigzag", "mesh"}}}};
 
+const Section spectrum{
+    "spectrum",
+    {{"step", above_0(1e5, "s")}, {"at", at_least_0(1e5, "s")}, {"range", between(10, 300, "dB")}, {"body"}}};
+
 const std::vector<PlacedSection>& all() {
   static const std::vector<PlacedSection> sections{{"", &scene},
                                                    {"bodies[]", &body},
@@ -154,7 +159,8 @@ const std::vector<PlacedSection>& all() {
                                                    {"render", &render},
                                                    {"render.camera", &camera},
                                                    {"render.background", &background},
-                                                   {"strip", &strip}};
+                                                   {"strip", &strip},
+                                                   {"spectrum", &spectrum}};
   return sections;
 }
 

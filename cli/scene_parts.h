@@ -48,4 +48,7 @@ render::Settings read_render(MapReader& scene, double duration, const std::vecto
 
 std::optional<StripSpec> read_strip(MapReader& scene, double duration);
 
+/// Of a cloth among the bodies.
+std::optional<SpectrumSpec> read_spectrum(MapReader& scene, double duration, const std::vector<BodyDraft>& drafts);
+
 }  // namespace billow::cli

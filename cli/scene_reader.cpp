@@ -83,6 +83,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.solver = read_solver(map, scene.duration);
   scene.render = read_render(map, scene.duration, names_of(drafts), scene.followed);
   scene.strip = read_strip(map, scene.duration);
+  scene.spectrum = read_spectrum(map, scene.duration, drafts);
   scene.effective = to_yaml(*record);
   for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft)));
   scene.hash = fingerprint(scene);

@@ -43,7 +43,7 @@ TEST(SceneFaults, Keys) {
       {"bodies:\n", "objects:\n",
        "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, water, "
        "solver, "
-       "render, strip"},
+       "render, strip, spectrum"},
       {"duration: 2", "? [a, b]\n: 2", "scene.yaml:2:3: a key must be a word"},
       {"duration: 2", "? {a: b}\n: 2", "scene.yaml:2:3: a key must be a word"},
   });
