@@ -192,6 +192,7 @@ class Film {
         if (sample->column) strip->add_column(strip_rows_.of(state.velocity));
         if (sample->frame && *sample->frame >= range_.first) {
           report_.frames.push_back(record_of(simulation_, *sample->frame, state));
+          report_.series.add(report_.frames.back());
           snapshot = {*sample->frame, sample->time, simulation_.surfaces(state)};
         }
       }

@@ -8,6 +8,7 @@
 
 #include "cli/output_folder.h"
 #include "cli/progress.h"
+#include "cli/run_series.h"
 #include "cli/scene.h"
 #include "cli/simulation.h"
 
@@ -37,6 +38,7 @@ struct FrameRecord {
 
 struct FilmReport {
   std::vector<FrameRecord> frames;
+  RunSeries series;  // of the same frames
   long frames_drawn = 0, images_written = 0, images_kept = 0;
   int strip_columns = 0;
   long steps = 0;

@@ -45,7 +45,7 @@ void remove_earlier_run(const fs::path& folder) {
     if (fs::is_directory(folder / name(view), error))
       fs::remove(folder / name(view), error);  // only if it is empty now
   }
-  for (const char* file : {"velocity_strip.png", "run.json"})
+  for (const char* file : {"velocity_strip.png", "run.json", "index.html"})
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
 }
 

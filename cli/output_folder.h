@@ -13,7 +13,7 @@ namespace billow::cli {
 /// What to do with a folder that already holds something.
 enum class Existing { refuse, overwrite, resume };
 
-/// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json.
+/// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json, index.html.
 class OutputFolder {
  public:
   /// Makes the folder. Throws OutputError when it holds anything and `existing` is refuse, or when it cannot be made.
@@ -21,14 +21,15 @@ class OutputFolder {
   OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
                const std::vector<render::View>& views);
 
-  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, strip and record that an
-  /// earlier run wrote there, and nothing else.
+  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, strip, record and page that
+  /// an earlier run wrote there, and nothing else.
   void begin_run();
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path frame(render::View view, long frame) const;
   std::filesystem::path strip() const { return folder_ / "velocity_strip.png"; }
   std::filesystem::path record() const { return folder_ / "run.json"; }
+  std::filesystem::path page() const { return folder_ / "index.html"; }
   /// True when resuming and the frame is there already.
   bool keeps(render::View view, long frame) const;
 

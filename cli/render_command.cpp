@@ -1,4 +1,4 @@
-// billow render: a scene's frames, strip and record.
+// billow render: a scene's frames, strip, record and page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/run_facts.h"
 #include "cli/run_record.h"
 #include "render/atomic_file.h"
 #include "sim/error.h"
@@ -35,11 +36,21 @@ void say_start(const Simulation& simulation, const Scene& scene, const StepChoic
   fmt::print(stderr, "{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})\n", scene.file.string(),
              simulation.structure().particles(), simulation.structure().springs(), choice.k0.value,
              sim::name(scene.solver.method), choice.step, choice.bound);
+}
+
+using Warnings = std::vector<std::string>;
+
+Warnings warnings_before(const StepChoice& choice) {
+  Warnings warnings;
   if (choice.limit && choice.step > *choice.limit)
-    fmt::print(stderr, "warning: the step is above the certified limit of {:.4g} s; the run may diverge\n",
-               *choice.limit);
-  if (!choice.k0.converged)
-    fmt::print(stderr, "warning: the power method did not settle; k0 may be a little too low\n");
+    warnings.push_back(
+        fmt::format("the step is above the certified limit of {:.4g} s; the run may diverge", *choice.limit));
+  if (!choice.k0.converged) warnings.push_back("the power method did not settle; k0 may be a little too low");
+  return warnings;
+}
+
+void say(const Warnings& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 // How far the energy climbed above its lowest value so far, as a share of what the run can turn over.
@@ -54,30 +65,37 @@ double energy_climb(const FilmReport& report, double scale) {
 }
 
 // Muscles put energy in, so only passive scenes are held to it.
-void warn_of_energy(const Scene& scene, const Simulation& simulation, const FilmReport& report) {
+std::optional<std::string> warning_of_energy(const Scene& scene, const Simulation& simulation,
+                                             const FilmReport& report) {
   for (const BodySpec& body : scene.bodies)
-    if (body.fish) return;
+    if (body.fish) return std::nullopt;
   const double climb = energy_climb(report, sim::energy_scale(simulation.structure(), simulation.forces(),
                                                               scene.gravity, simulation.initial_state()));
-  if (climb > 0.05)
-    fmt::print(
-        stderr,
-        "warning: the energy climbed by {:.0f} % of the weight times the size, which nothing physical does; take a "
-        "smaller step, or the conserving form for a force filter\n",
-        100.0 * climb);
+  if (climb <= 0.05) return std::nullopt;
+  return fmt::format(
+      "the energy climbed by {:.0f} % of the weight times the size, which nothing physical does; take a smaller step, "
+      "or the conserving form for a force filter",
+      100.0 * climb);
+}
+
+Warnings warnings_after(const Scene& scene, const Simulation& simulation, const FilmReport& report) {
+  Warnings warnings;
+  if (const auto warning = warning_of_energy(scene, simulation, report)) warnings.push_back(*warning);
+  if (report.solves.failures > 0)
+    warnings.push_back(
+        fmt::format("{} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "
+                    "smaller step",
+                    report.solves.failures, report.solves.solves));
+  return warnings;
 }
 
 void say_end(const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
-  if (report.solves.failures > 0)
-    fmt::print(stderr,
-               "warning: {} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "
-               "smaller step\n",
-               report.solves.failures, report.solves.solves);
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
   const std::string strip =
       report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
   fmt::print(stderr,
-             "wrote {} images{}{} and run.json to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw {:.1f}, encode "
+             "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
+             "{:.1f}, encode "
              "{:.1f}; the last three overlap)\n",
              report.images_written, kept, strip, folder.path().string(), survey.seconds + report.wall_seconds,
              survey.seconds, report.simulate_seconds, report.draw_seconds, report.encode_seconds);
@@ -97,6 +115,8 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
   catch_interrupts();
   OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
   say_start(simulation, scene, choice);
+  Warnings warnings = warnings_before(choice);
+  say(warnings);
 
   Progress progress(options.progress);
   const Survey found = survey(scene, simulation, choice, progress);
@@ -108,7 +128,11 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
       make_film(scene, simulation, choice, found.bounds, range_of(options, scene), folder, threads, progress);
   render::write_file_atomically(folder.record(),
                                 finished_record(scene, options.command, simulation, choice, found, report));
-  warn_of_energy(scene, simulation, report);
+  const Warnings late = warnings_after(scene, simulation, report);
+  say(late);
+  warnings.insert(warnings.end(), late.begin(), late.end());
+  render::write_file_atomically(
+      folder.page(), run_page_html(describe_run(scene, options.command, simulation, choice, found, report, warnings)));
   say_end(report, found, folder);
   if (report.interrupted_by) return 128 + report.interrupted_by;
   if (report.divergence) throw DivergenceError(*report.divergence);

@@ -74,7 +74,7 @@ TEST_F(RenderCommand, WritesFramesStripAndRecord) {
   EXPECT_EQ(strip.height, 144);
   EXPECT_EQ(record()["status"], "done");
   EXPECT_EQ(record()["frames"].size(), 11u);
-  EXPECT_NE(result.errors.find("wrote 22 images, velocity_strip.png (22 columns) and run.json to film"),
+  EXPECT_NE(result.errors.find("wrote 22 images, velocity_strip.png (22 columns), run.json and index.html to film"),
             std::string::npos)
       << result.errors;
 }

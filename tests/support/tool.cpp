@@ -22,24 +22,24 @@ void redirect(const fs::path& file, int descriptor) {
   close(opened);
 }
 
-[[noreturn]] void become_tool(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
-                              const fs::path& err) {
-  std::vector<char*> argv{const_cast<char*>("billow")};
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder,
+                         const fs::path& out, const fs::path& err) {
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
-  if (chdir(folder.c_str()) == 0) execv(BILLOW_TOOL, argv.data());
+  if (chdir(folder.c_str()) == 0) execvp(program.c_str(), argv.data());
   _exit(127);
 }
 
 }  // namespace
 
-ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& folder, double interrupt_after,
-                    const fs::path& interrupt_when) {
+ToolResult run_program(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder,
+                       double interrupt_after, const fs::path& interrupt_when) {
   const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
   const pid_t child = fork();
-  if (child == 0) become_tool(arguments, folder, out, err);
+  if (child == 0) become(program, arguments, folder, out, err);
   if (interrupt_after >= 0.0) {
     for (int k = 0; k < 6000 && !interrupt_when.empty() && !fs::exists(interrupt_when); ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -52,6 +52,11 @@ ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& f
   fs::remove(out);
   fs::remove(err);
   return result;
+}
+
+ToolResult run_tool(const std::vector<std::string>& arguments, const fs::path& folder, double interrupt_after,
+                    const fs::path& interrupt_when) {
+  return run_program(BILLOW_TOOL, arguments, folder, interrupt_after, interrupt_when);
 }
 
 std::string read_text(const fs::path& file) {

@@ -1,0 +1,115 @@
+// A run's facts as text.
+#include "cli/run_facts.h"
+
+#include <fmt/format.h>
+
+#include "cli/output_folder.h"
+#include "cli/version.h"
+
+namespace billow::cli {
+
+namespace {
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+std::string filter_text(const Scene& scene) {
+  if (!scene.solver.filter) return "none";
+  const sim::FilterOptions& filter = *scene.solver.filter;
+  static constexpr const char* forms[] = {"plain", "symmetric", "conserving"};
+  const std::string lambda =
+      scene.solver.lambda_expression.empty() ? fmt::format("{:.4g}", filter.lambda) : scene.solver.lambda_expression;
+  return fmt::format("{}, λ = {}{}, {}, of {}{}",
+                     filter.kernel == sim::FilterKernel::exponential ? "exponential" : "Gaussian", lambda,
+                     filter.lambda_keys.empty() ? "" : " (changing over time)", forms[static_cast<int>(filter.form)],
+                     sim::name(filter.target), filter.passes > 1 ? fmt::format(", {} passes", filter.passes) : "");
+}
+
+std::string summary(const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
+  return fmt::format("{} particles, {} springs; {} at {:.4g} s a step; filter: {}", simulation.structure().particles(),
+                     simulation.structure().springs(), sim::name(scene.solver.method), choice.step, filter_text(scene));
+}
+
+std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.4g} s", *limit) : "none"; }
+
+std::string limits_text(const StepChoice& choice) {
+  return fmt::format("paper {}, certified at rest {}, certified for any shape {}", limit_text(choice.paper),
+                     limit_text(choice.certified), limit_text(choice.any_shape));
+}
+
+std::string solves_text(const sim::SolveCounts& solves) {
+  return fmt::format("{}, {:.3g} iterations each, {} not converged", solves.solves,
+                     static_cast<double>(solves.iterations) / static_cast<double>(solves.solves), solves.failures);
+}
+
+std::string seconds_text(const Survey& survey, const FilmReport& report) {
+  return fmt::format(
+      "{:.1f} s: survey {:.1f}; then side by side simulate {:.1f}, draw {:.1f}, encode {:.1f} over all threads",
+      survey.seconds + report.wall_seconds, survey.seconds, report.simulate_seconds, report.draw_seconds,
+      report.encode_seconds);
+}
+
+std::string images_text(const FilmReport& report) {
+  const std::string kept = report.images_kept ? fmt::format(", {} kept from an earlier run", report.images_kept) : "";
+  return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
+}
+
+Facts facts_of(const Scene& scene, const Simulation& simulation, const StepChoice& choice, const Survey& survey,
+               const FilmReport& report) {
+  Facts facts{{"Scene", fmt::format("{} (hash {})", scene.file.string(), scene.hash)},
+              {"Particles, springs",
+               fmt::format("{}, {}", simulation.structure().particles(), simulation.structure().springs())},
+              {"Highest eigenvalue k0", fmt::format("{:.4g} /s²{}", choice.k0.value,
+                                                    choice.k0.converged ? "" : " (the power method did not settle)")}};
+  if (choice.filtered) facts.emplace_back("With the filter", fmt::format("{:.4g} /s²", choice.filtered->value));
+  facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
+                             {"Filter", filter_text(scene)},
+                             {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
+                             {"Step limits", limits_text(choice)},
+                             {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
+                                                       scene.duration, report.steps)}});
+  if (report.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.solves));
+  facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
+                             {"Images", images_text(report)},
+                             {"Time taken", seconds_text(survey, report)},
+                             {"Drawn by", report.gl},
+                             {"billow", std::string(version())}});
+  return facts;
+}
+
+std::vector<PageNote> notes_of(const FilmReport& report, const std::vector<std::string>& warnings) {
+  std::vector<PageNote> notes;
+  if (report.divergence)
+    notes.push_back({true, *report.divergence});
+  else if (report.interrupted_by)
+    notes.push_back({true, fmt::format("This run was interrupted after {:.4g} s of simulated time; the same command "
+                                       "with --resume finishes it.",
+                                       report.simulated_time)});
+  if (notes.size() == 1)
+    notes[0].text += report.series.last_frame() == 0 ? "\nThere is no frame." : "\nThe frames before it are below.";
+  for (const std::string& warning : warnings) notes.push_back({false, "Warning: " + warning});
+  return notes;
+}
+
+}  // namespace
+
+RunPage describe_run(const Scene& scene, const std::string& command, const Simulation& simulation,
+                     const StepChoice& choice, const Survey& survey, const FilmReport& report,
+                     const std::vector<std::string>& warnings) {
+  RunPage page;
+  page.title = scene.file.stem().string();
+  page.summary = summary(scene, simulation, choice);
+  page.notes = notes_of(report, warnings);
+  for (const render::View view : scene.render.views) page.views.emplace_back(name(view));
+  page.width = scene.render.width;
+  page.height = scene.render.height;
+  page.fps = scene.render.fps;
+  page.series = report.series;
+  page.strip_columns = report.strip_columns;
+  page.strip_step = scene.strip ? scene.strip->step : 0.0;
+  page.facts = facts_of(scene, simulation, choice, survey, report);
+  page.command = command;
+  page.scene = scene.effective;
+  return page;
+}
+
+}  // namespace billow::cli
