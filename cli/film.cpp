@@ -10,6 +10,7 @@
 
 #include "cli/channel.h"
 #include "cli/interrupt.h"
+#include "cli/spectrum_recorder.h"
 #include "cli/strip_rows.h"
 #include "render/png.h"
 #include "render/velocity_strip.h"
@@ -32,12 +33,13 @@ class Stopwatch {
   Clock::time_point begin_;
 };
 
-/// The sample times of a run in order: frames, strip columns, or both at once.
+/// The sample times of a run in order: frames, strip columns, samples of the spectrum, or several at once.
 class Timeline {
  public:
   struct Sample {
     double time = 0.0;  // [s]
     std::optional<long> frame, column;
+    bool spectrum = false, image = false;  // a sample of the spectrum's mean; the velocity image
   };
 
   /// Ends after frame `last_frame` and before the columns of the frame after it.
@@ -46,27 +48,39 @@ class Timeline {
         last_frame_(last_frame),
         end_(std::min(scene.duration, static_cast<double>(last_frame) / scene.render.fps)) {
     if (scene.strip) column_step_ = scene.strip->step;
+    if (!scene.spectrum) return;
+    spectrum_step_ = scene.spectrum->step;
+    image_time_ = scene.spectrum->at;
   }
 
   std::optional<Sample> next() {
     const double frame_time = next_frame_ <= last_frame_ ? static_cast<double>(next_frame_ - 1) / fps_ : INFINITY;
-    const double strip_time = static_cast<double>(next_column_) * column_step_;
-    const double column_time = strip_time < end_ * (1.0 - 1e-12) ? strip_time : INFINITY;
-    const double time = std::min(frame_time, column_time);
+    const double column_time = before_end(next_column_, column_step_);
+    const double spectrum_time = before_end(next_spectrum_, spectrum_step_);
+    const double image_time = image_time_ <= end_ * (1.0 + 1e-12) ? image_time_ : INFINITY;
+    const double time = std::min({frame_time, column_time, spectrum_time, image_time});
     if (!std::isfinite(time)) return std::nullopt;
-    Sample sample{time, {}, {}};
+    Sample sample{time, {}, {}, false, false};
     const double together = time + 1e-9;
     if (frame_time <= together) sample.frame = next_frame_++;
     if (column_time <= together) sample.column = next_column_++;
+    if (spectrum_time <= together) sample.spectrum = true, ++next_spectrum_;
+    if (image_time <= together) sample.image = true, image_time_ = INFINITY;
     return sample;
   }
 
  private:
+  // Nothing is sampled every infinite time, not even at 0.
+  double before_end(long number, double step) const {
+    const double time = std::isfinite(step) ? static_cast<double>(number) * step : INFINITY;
+    return time < end_ * (1.0 - 1e-12) ? time : INFINITY;
+  }
+
   double fps_;
   long last_frame_;
   double end_;
-  double column_step_ = INFINITY;
-  long next_frame_ = 1, next_column_ = 0;
+  double column_step_ = INFINITY, spectrum_step_ = INFINITY, image_time_ = INFINITY;
+  long next_frame_ = 1, next_column_ = 0, next_spectrum_ = 0;
 };
 
 /// Keeps the first error of several threads and tells everyone to stop.
@@ -166,9 +180,11 @@ class Film {
     if (scene_.strip)
       strip.emplace(folder_.strip(), strip_rows_.order(),
                     scene_.render.velocity_range.value_or(bounds_.velocity_scale));
+    std::optional<SpectrumRecorder> spectrum;
+    if (scene_.spectrum) spectrum.emplace(scene_, simulation_);
     const auto solver = simulation_.make_solver(choice_);
     try {
-      run_timeline(*solver, strip ? &*strip : nullptr);
+      run_timeline(*solver, strip ? &*strip : nullptr, spectrum ? &*spectrum : nullptr);
     } catch (const DivergenceError& error) {
       report_.divergence = error.what();
     }
@@ -176,12 +192,13 @@ class Film {
     report_.simulated_time = solver->state().time;
     report_.solves = solver->solve_counts();
     snapshots_.close();
+    if (spectrum) spectrum->finish(folder_, scene_.render.velocity_range.value_or(bounds_.velocity_scale));
     if (!strip) return;
     report_.strip_columns = strip->columns();
     if (report_.strip_columns > 0) strip->finish();
   }
 
-  void run_timeline(sim::Solver& solver, render::VelocityStrip* strip) {
+  void run_timeline(sim::Solver& solver, render::VelocityStrip* strip, SpectrumRecorder* spectrum) {
     Timeline timeline(scene_, range_.last);
     while (const auto sample = timeline.next()) {
       if ((report_.interrupted_by = interrupted_by()) != 0) return;
@@ -190,6 +207,8 @@ class Film {
         const Stopwatch watch(report_.simulate_seconds);
         const sim::State state = solver.sample(sample->time);
         if (sample->column) strip->add_column(strip_rows_.of(state.velocity));
+        if (sample->spectrum) spectrum->add(state);
+        if (sample->image) spectrum->show(state);
         if (sample->frame && *sample->frame >= range_.first) {
           report_.frames.push_back(record_of(simulation_, *sample->frame, state));
           report_.series.add(report_.frames.back());

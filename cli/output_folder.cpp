@@ -45,7 +45,8 @@ void remove_earlier_run(const fs::path& folder) {
     if (fs::is_directory(folder / name(view), error))
       fs::remove(folder / name(view), error);  // only if it is empty now
   }
-  for (const char* file : {"velocity_strip.png", "run.json", "index.html"})
+  for (const char* file :
+       {"velocity_strip.png", "velocity_image.png", "velocity_spectrum.png", "spectrum.csv", "run.json", "index.html"})
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
 }
 

@@ -13,7 +13,8 @@ namespace billow::cli {
 /// What to do with a folder that already holds something.
 enum class Existing { refuse, overwrite, resume };
 
-/// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json, index.html.
+/// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json, index.html; with a spectrum also
+/// velocity_image.png, velocity_spectrum.png, spectrum.csv.
 class OutputFolder {
  public:
   /// Makes the folder. Throws OutputError when it holds anything and `existing` is refuse, or when it cannot be made.
@@ -28,6 +29,9 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path frame(render::View view, long frame) const;
   std::filesystem::path strip() const { return folder_ / "velocity_strip.png"; }
+  std::filesystem::path velocity_image() const { return folder_ / "velocity_image.png"; }
+  std::filesystem::path spectrum() const { return folder_ / "velocity_spectrum.png"; }
+  std::filesystem::path spectrum_table() const { return folder_ / "spectrum.csv"; }
   std::filesystem::path record() const { return folder_ / "run.json"; }
   std::filesystem::path page() const { return folder_ / "index.html"; }
   /// True when resuming and the frame is there already.

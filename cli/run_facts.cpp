@@ -106,6 +106,8 @@ RunPage describe_run(const Scene& scene, const std::string& command, const Simul
   page.series = report.series;
   page.strip_columns = report.strip_columns;
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
+  if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
+    page.spectrum_time = scene.spectrum->at;
   page.facts = facts_of(scene, simulation, choice, survey, report);
   page.command = command;
   page.scene = scene.effective;

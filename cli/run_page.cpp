@@ -115,6 +115,18 @@ std::string player(const RunPage& page) {
                         {"data", json_for_script(data.dump())}});
 }
 
+// One pixel a cell: enlarged without smoothing.
+std::string spectrum(const RunPage& page) {
+  if (page.spectrum_time < 0.0) return "";
+  return fmt::format(
+      "<section>\n<h2>Spectrum</h2>\n<div class=\"views pixels\">\n<figure class=\"view\"><img "
+      "src=\"velocity_image.png\" alt=\"the cloth's velocities as an image\"><figcaption>velocities at {:g} "
+      "s</figcaption></figure>\n<figure class=\"view\"><img src=\"velocity_spectrum.png\" alt=\"their "
+      "spectrum\"><figcaption>mean spectrum, zero frequency at the centre; <a href=\"spectrum.csv\">by radial "
+      "frequency</a></figcaption></figure>\n</div>\n</section>\n",
+      page.spectrum_time);
+}
+
 std::string facts(const RunPage& page) {
   std::string html;
   for (const auto& [name, value] : page.facts)
@@ -136,6 +148,7 @@ std::string run_page_html(const RunPage& page) {
                                                                  {"summary", html_escape(page.summary)},
                                                                  {"notes", notes(page)},
                                                                  {"player", player(page)},
+                                                                 {"spectrum", spectrum(page)},
                                                                  {"facts", facts(page)},
                                                                  {"command", html_escape(page.command)},
                                                                  {"scene", html_escape(page.scene)},

@@ -19,12 +19,13 @@ struct PageNote {
 struct RunPage {
   std::string title, summary;
   std::vector<PageNote> notes;
-  std::vector<std::string> views;                          // names, also of the frames' folders
-  int width = 0, height = 0;                               // [pixel] of a frame
-  double fps = 0.0;                                        // frame f is at (f - 1) / fps
-  RunSeries series;                                        // knows which frames there are, too
-  int strip_columns = 0;                                   // 0: no strip
-  double strip_step = 0.0;                                 // [s] between columns
+  std::vector<std::string> views;  // names, also of the frames' folders
+  int width = 0, height = 0;       // [pixel] of a frame
+  double fps = 0.0;                // frame f is at (f - 1) / fps
+  RunSeries series;                // knows which frames there are, too
+  int strip_columns = 0;           // 0: no strip
+  double strip_step = 0.0;         // [s] between columns
+  double spectrum_time = -1.0;     // [s] of the velocity image beside the spectrum; < 0: neither
   std::vector<std::pair<std::string, std::string>> facts;  // name, value
   std::string command;                                     // that repeats the run
   std::string scene;                                       // the effective scene

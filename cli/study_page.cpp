@@ -24,9 +24,10 @@ std::string figure(const PictureSpec& picture, bool first) {
   const std::string title = html_escape(picture.title.empty() ? picture.name : picture.title);
   const std::string file = picture.name + (is_plot(picture) ? ".svg" : ".png");
   const std::string data = is_plot(picture) ? fmt::format(R"( <a href="{0}.csv">{0}.csv</a>)", picture.name) : "";
-  return fmt::format(R"({}<figure class="hero"><a href="{}"><img src="{}" alt="{}"></a><figcaption>{}{}</figcaption></figure>
+  return fmt::format(
+      R"({}<figure class="hero"><a href="{}"><img src="{}" alt="{}"></a><figcaption>{}{}</figcaption></figure>
 )",
-                     first ? "" : "<h2>" + title + "</h2>\n", file, file, title, html_escape(picture.note), data);
+      first ? "" : "<h2>" + title + "</h2>\n", file, file, title, html_escape(picture.note), data);
 }
 
 // The columns that any run has a value in.
@@ -79,8 +80,9 @@ std::string runs_table(const StudyContents& contents) {
   std::string out = "<h2>Runs</h2>\n<div class=\"scroll\"><table class=\"runs\"><thead>\n" + head(contents, columns) +
                     "</thead><tbody>\n";
   for (std::size_t r = 0; r < contents.runs.size(); ++r) out += row(contents, r, columns);
-  return out + "</tbody></table></div>\n<p><a href=\"results.csv\">results.csv</a>, "
-               "<a href=\"study.json\">study.json</a></p>\n";
+  return out +
+         "</tbody></table></div>\n<p><a href=\"results.csv\">results.csv</a>, "
+         "<a href=\"study.json\">study.json</a></p>\n";
 }
 
 std::string commands(const StudyContents& contents) {
@@ -107,10 +109,10 @@ std::string shortfalls(const StudyContents& contents) {
     const auto runs = std::count_if(contents.results.begin(), contents.results.end(),
                                     [&](const RunResult& result) { return result.status == status; });
     if (runs > 0)
-      out += fmt::format("<p class=\"note {}\">{} of {} runs {} {}.</p>\n",
-                         status == RunStatus::diverged ? "warn" : "bad", runs, contents.runs.size(),
-                         status == RunStatus::missing ? (runs == 1 ? "is" : "are") : "",
-                         status == RunStatus::missing ? "missing" : std::string(name(status)));
+      out +=
+          fmt::format("<p class=\"note {}\">{} of {} runs {} {}.</p>\n", status == RunStatus::diverged ? "warn" : "bad",
+                      runs, contents.runs.size(), status == RunStatus::missing ? (runs == 1 ? "is" : "are") : "",
+                      status == RunStatus::missing ? "missing" : std::string(name(status)));
   }
   return out;
 }

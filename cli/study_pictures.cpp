@@ -70,7 +70,8 @@ nlohmann::json record_of_run(const Shown& run) {
 /// The rendered frames of a run and their times.
 std::vector<std::pair<long, double>> frames_of(const Shown& run) {
   std::vector<std::pair<long, double>> frames;
-  for (const auto& frame : record_of_run(run).at("frames"))
+  const nlohmann::json record = record_of_run(run);
+  for (const auto& frame : record.at("frames"))
     frames.emplace_back(frame.at("frame").get<long>(), frame.at("time").get<double>());
   return frames;
 }
