@@ -65,7 +65,7 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
 }
 
 void add_render(CLI::App& app, Request& r) {
-  CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip and record");
+  CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip, record and page");
   add_scene_options(c, r.render.scene, r);
   c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
       ->type_name("DIR");

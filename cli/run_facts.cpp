@@ -76,16 +76,21 @@ Facts facts_of(const Scene& scene, const Simulation& simulation, const StepChoic
   return facts;
 }
 
-std::vector<PageNote> notes_of(const FilmReport& report, const std::vector<std::string>& warnings) {
+// Why the run has fewer frames than it was asked for; empty where it has them all.
+std::string shortfall(const Scene& scene, const FilmReport& report) {
+  if (report.divergence) return "This run did not finish: " + *report.divergence + ".";
+  if (!report.interrupted_by) return "";
+  return fmt::format(
+      "This run was interrupted at {:.4g} s of {:.4g} s. Unless it drew a range of frames only, --resume "
+      "finishes it.",
+      report.simulated_time, scene.duration);
+}
+
+std::vector<PageNote> notes_of(const Scene& scene, const FilmReport& report, const std::vector<std::string>& warnings) {
   std::vector<PageNote> notes;
-  if (report.divergence)
-    notes.push_back({true, *report.divergence});
-  else if (report.interrupted_by)
-    notes.push_back({true, fmt::format("This run was interrupted after {:.4g} s of simulated time; the same command "
-                                       "with --resume finishes it.",
-                                       report.simulated_time)});
-  if (notes.size() == 1)
-    notes[0].text += report.series.last_frame() == 0 ? "\nThere is no frame." : "\nThe frames before it are below.";
+  if (const std::string why = shortfall(scene, report); !why.empty())
+    notes.push_back({true, why + (report.series.last_frame() == 0 ? "\nNo frame was drawn."
+                                                                  : "\nThe frames until then are below.")});
   for (const std::string& warning : warnings) notes.push_back({false, "Warning: " + warning});
   return notes;
 }
@@ -98,7 +103,7 @@ RunPage describe_run(const Scene& scene, const std::string& command, const Simul
   RunPage page;
   page.title = scene.file.stem().string();
   page.summary = summary(scene, simulation, choice);
-  page.notes = notes_of(report, warnings);
+  page.notes = notes_of(scene, report, warnings);
   for (const render::View view : scene.render.views) page.views.emplace_back(name(view));
   page.width = scene.render.width;
   page.height = scene.render.height;

@@ -147,7 +147,10 @@
       held = lane;
       seek_to(event);
     });
-  window.addEventListener("pointermove", (event) => held && seek_to(event));
+  window.addEventListener("pointermove", (event) => {
+    if (event.buttons === 0) held = null; // let go outside the window
+    if (held) seek_to(event);
+  });
   for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => (held = null));
 
   window.addEventListener("beforeprint", () => {

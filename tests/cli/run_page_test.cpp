@@ -96,6 +96,7 @@ TEST_F(RunPageInBrowser, MovesEverythingTogether) {
   EXPECT_EQ(seen["playing"], "Pause");
   EXPECT_EQ(seen["played"]["frame"], 11);
   EXPECT_EQ(seen["played"]["button"], "Play");
+  EXPECT_THAT(seen["requests"], IsEmpty());  // over a network; files are not counted
   EXPECT_EQ(seen["overflow"], 0);
 }
 
@@ -107,7 +108,7 @@ TEST_F(RunPageInBrowser, ShowsWhatADivergedRunOfOneViewLeft) {
   EXPECT_EQ(visit.result["played"]["frame"], record()["frames"].back()["frame"]);
   EXPECT_TRUE(visit.result["played"]["loaded"]);
   EXPECT_THAT(test::read_text(film() / "index.html"),
-              testing::HasSubstr("<p class=\"note bad\">the simulation diverged"));
+              testing::HasSubstr("<p class=\"note bad\">This run did not finish: the simulation diverged"));
 }
 
 // Finding no fault proves something only if faults are found.
