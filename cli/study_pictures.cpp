@@ -101,6 +101,13 @@ std::string lettered(std::size_t index, const std::string& label) {
   throw InputError(fmt::format("the picture '{}' {}", picture.name, reason));
 }
 
+// A strip ends with its scene, or where the run diverged.
+double strip_duration(const Shown& run) {
+  const double duration = run.result->value("duration").value_or(0.0);
+  if (run.result->status == RunStatus::done) return duration;
+  return std::min(duration, record_of_run(run).at("solver").at("simulated_time").get<double>());
+}
+
 // One strip above the other on one time axis; below them the first run's frames, each beginning at its time.
 render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& picture, double duration) {
   render::Sheet sheet{picture.title, picture.note, {}, 0.0, duration, strip_width, {}};
@@ -108,8 +115,7 @@ render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& pi
     const fs::path file = runs[r].film / "velocity_strip.png";
     std::error_code error;
     if (!fs::exists(file, error)) fail_for(picture, "needs a strip; give the scene one with 'strip: {}'");
-    const double share =
-        std::min(1.0, record_of_run(runs[r]).at("solver").at("simulated_time").get<double>() / duration);
+    const double share = strip_duration(runs[r]) / duration;
     const int width = std::max(1, static_cast<int>(std::lround(share * strip_width)));
     sheet.rows.push_back(
         {lettered(r, runs[r].label), {{render::read_png(file), width, strip_height, true, ""}}, {}, false});
@@ -278,16 +284,18 @@ render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& pic
           curves.sorted()};
 }
 
+double longest(const std::vector<Shown>& runs) {
+  double duration = 0.0;
+  for (const Shown& run : runs) duration = std::max(duration, run.result->value("duration").value_or(0.0));
+  return duration;
+}
+
 render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture) {
   const std::vector<Shown> runs = rendered_runs(contents, picture);
   if (runs.empty()) fail_for(picture, "has no finished run to show");
   switch (picture.kind) {
-    case PictureKind::strips: {
-      double duration = 0.0;
-      for (const Shown& run : runs)
-        duration = std::max(duration, record_of_run(run).at("solver").at("simulated_time").get<double>());
-      return strips_sheet(runs, picture, duration);
-    }
+    case PictureKind::strips:
+      return strips_sheet(runs, picture, longest(runs));
     case PictureKind::spectra:
       return spectra_sheet(runs, picture);
     default:

@@ -92,6 +92,7 @@ std::string_view name(RunStatus status) {
 
 const std::vector<ResultColumn>& result_columns() {
   static const std::vector<ResultColumn> columns = {
+      {"duration", "duration of the scene", "s"},
       {"particles", "particles", ""},
       {"springs", "springs", ""},
       {"k0", "largest eigenvalue k0", "1/s²"},

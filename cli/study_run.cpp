@@ -34,6 +34,7 @@ void add_limit(RunResult& result, const std::string& column, std::optional<doubl
 
 void add_limits(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
   const std::optional<double> unfiltered = sim::paper_step(scene.solver.method, choice.k0.value);
+  add(result, "duration", scene.duration);
   add(result, "particles", simulation.structure().particles());
   add(result, "springs", simulation.structure().springs());
   add(result, "k0", choice.k0.value);
