@@ -148,13 +148,14 @@ std::string line_plot(const LinePlot& plot) {
     lines += polyline(line, {plot, axis});
   }
   return fmt::format(
-      "<figure class=\"plot\" data-low=\"{}\" data-high=\"{}\" data-decimals=\"{}\">\n"
+      "<figure class=\"plot\" data-low=\"{}\" data-high=\"{}\" data-decimals=\"{}\" data-prefix=\"{}\">\n"
       "<figcaption><b>{} <span>[{}]</span></b>{}</figcaption>\n"
       "<div class=\"lane\"><div class=\"y-ticks\" aria-hidden=\"true\">{}</div><div class=\"axes seek\">"
       "<svg viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"{} over time\">\n{}{}</svg>"
       "<i class=\"cursor\"></i></div>\n<div class=\"ticks\" aria-hidden=\"true\">{}</div></div>\n</figure>\n",
-      axis.low, axis.high, axis.decimals + 2, html_escape(plot.title), html_escape(unit_text(plot.unit, axis.exponent)),
-      keys, value_labels(axis), plot_width, plot_height, html_escape(plot.title), grid(plot, axis), lines,
+      axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", html_escape(plot.title),
+      html_escape(unit_text(plot.unit, axis.exponent)), keys, value_labels(axis), plot_width, plot_height,
+      html_escape(plot.title), grid(plot, axis), lines,
       time_labels(time_ticks(plot.begin, plot.end), plot.begin, plot.end));
 }
 

@@ -20,6 +20,7 @@ struct LinePlot {
   std::string title, unit;
   double begin = 0.0, end = 0.0;  // [s] the time axis; end > begin
   std::vector<PlotLine> lines;
+  bool exact = true;  // false: the lines keep extremes only, and what is read from them is marked with ≈
 };
 
 /// A value axis: from low to high, both multiples of `step`, after division by 10^exponent.

@@ -74,17 +74,20 @@ std::string plots(const RunPage& page, const TimeAxis& axis) {
                     "J",
                     axis.begin,
                     axis.end,
-                    {line("kinetic", "1", kinetic), line("potential", "2", potential), line("total", "3", total)}}) +
+                    {line("kinetic", "1", kinetic), line("potential", "2", potential), line("total", "3", total)},
+                    page.series.exact()}) +
          line_plot({"Linear momentum",
                     "kg m/s",
                     axis.begin,
                     axis.end,
-                    {line("x", "x", linear_x), line("y", "y", linear_y), line("z", "z", linear_z)}}) +
+                    {line("x", "x", linear_x), line("y", "y", linear_y), line("z", "z", linear_z)},
+                    page.series.exact()}) +
          line_plot({"Angular momentum",
                     "kg m²/s, about the origin",
                     axis.begin,
                     axis.end,
-                    {line("x", "x", angular_x), line("y", "y", angular_y), line("z", "z", angular_z)}});
+                    {line("x", "x", angular_x), line("y", "y", angular_y), line("z", "z", angular_z)},
+                    page.series.exact()});
 }
 
 std::string player(const RunPage& page) {

@@ -35,6 +35,9 @@ class RunSeries {
   /// The curve of one quantity, in the order of time: at most max_points.
   std::vector<PlotPoint> points(Quantity quantity) const;
 
+  /// False once frames were merged: the curves then show extremes, and between these no more than that.
+  bool exact() const { return group_size_ == 1; }
+
   /// Numbers of the first and last frame; 0 when there is none.
   long first_frame() const { return first_frame_; }
   long last_frame() const { return last_frame_; }

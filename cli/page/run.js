@@ -47,12 +47,12 @@
       points: [...line.points].map((p) => [p.x, p.y]),
       value: (y) => high - (y / height) * (high - low),
       decimals: Number(plot.dataset.decimals),
+      prefix: plot.dataset.prefix,
       output: outputs[k],
     }));
   });
   function height_at(points, x) {
     let low = 0, high = points.length - 1;
-    if (high < 0) return NaN;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
       if (points[middle][0] <= x) low = middle;
@@ -62,11 +62,11 @@
     return x1 > x0 ? y0 + ((y1 - y0) * clamp(x - x0, 0, x1 - x0)) / (x1 - x0) : y0;
   }
   function read_lines(x) {
-    for (const line of lines) {
+    for (const line of lines.filter((line) => line.points.length > 0)) {
       const y = height_at(line.points, x);
       const zero = (0).toFixed(line.decimals);
-      const text = Number.isNaN(y) ? "" : line.value(y).toFixed(line.decimals);
-      line.output.textContent = text === "-" + zero ? zero : text.replace("-", "\u2212");
+      const text = line.value(y).toFixed(line.decimals);
+      line.output.textContent = line.prefix + (text === "-" + zero ? zero : text.replace("-", "\u2212"));
     }
   }
 

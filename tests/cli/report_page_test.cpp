@@ -63,6 +63,7 @@ TEST(ReportPage, FillsATemplateOnceAndWhole) {
 TEST(RunSeries, KeepsAShortRunAsItIs) {
   const std::vector<cli::PlotPoint> points = series(1000).points(Quantity::kinetic);
   ASSERT_EQ(points.size(), 1000u);
+  EXPECT_TRUE(series(1000).exact());
   EXPECT_EQ(points[499].time, 499 / 25.0);
   EXPECT_EQ(points[499].value, 1.0 + std::sin(0.5));
 }
@@ -85,6 +86,7 @@ TEST(RunSeries, LosesNoPeakOfALongRunInBoundedSpace) {
     EXPECT_EQ(std::min(low->time, high->time), 1233 / 25.0);
     EXPECT_EQ(std::max(low->time, high->time), 76542 / 25.0);
   }
+  EXPECT_FALSE(run.exact());
   EXPECT_EQ(run.first_frame(), 1);
   EXPECT_EQ(run.last_frame(), 100000);
 }
