@@ -95,8 +95,7 @@ void say_end(const FilmReport& report, const Survey& survey, const OutputFolder&
       report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
   fmt::print(stderr,
              "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
-             "{:.1f}, encode "
-             "{:.1f}; the last three overlap)\n",
+             "{:.1f}, encode {:.1f}; the last three overlap)\n",
              report.images_written, kept, strip, folder.path().string(), survey.seconds + report.wall_seconds,
              survey.seconds, report.simulate_seconds, report.draw_seconds, report.encode_seconds);
 }
