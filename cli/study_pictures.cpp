@@ -121,7 +121,7 @@ render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& pi
         {lettered(r, runs[r].label), {{render::read_png(file), width, strip_height, true, ""}}, {}, false});
   }
   sheet.rows.back().axis_below = true;
-  render::SheetRow frames{lettered(runs.size(), "the cloth, " + runs.front().label), {}, {}, false};
+  render::SheetRow frames{lettered(runs.size(), "frames of " + runs.front().label), {}, {}, false};
   if (runs.front().label.empty()) frames.label.clear();
   const int width = std::max(40, strip_width / static_cast<int>(std::max<std::size_t>(1, picture.times.size())) - 6);
   const auto recorded = frames_of(runs.front());

@@ -67,12 +67,13 @@ std::string settings(const Plot& plot) {
       "set border 3 lc rgb \"#5a6368\"\n"
       "set tics nomirror textcolor rgb \"#23282c\"\n"
       "set grid lc rgb \"#dcdcdc\" lw 1 dt 1\n"
-      "set key below left Left reverse maxrows 4 width 2 spacing 1.2\n"
-      "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0\n";
+      "set key tmargin left Left reverse horizontal width 1 spacing 1.25\n"
+      "set autoscale xfix\n"
+      "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.02\n";
   out += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(plot.title), quoted(plot.x_label),
                      quoted(plot.y_label));
-  if (plot.log_x) out += "set logscale x\n";
-  if (plot.log_y) out += "set logscale y\n";
+  if (plot.log_x) out += "set logscale x\nset format x \"%g\"\n";
+  if (plot.log_y) out += "set logscale y\nset format y \"%g\"\n";
   return out;
 }
 
