@@ -15,6 +15,7 @@
 #include "sim/fish_motion.h"
 #include "sim/integrator.h"
 #include "sim/mesh.h"
+#include "sim/soft_body.h"
 #include "sim/water_force.h"
 
 namespace billow::cli {
@@ -41,15 +42,16 @@ struct FishSpec {
   double buoyancy = 1.0;  // share of the weight that the water carries
 };
 
-/// One body of the scene, its mesh already imported: a cloth, its mesh moved and its pins found, or a fish, whose mesh
-/// is its skin.
+/// One body of the scene, its mesh already imported: a cloth or a soft body, its mesh moved and its pins found, or a
+/// fish, whose mesh is its skin.
 struct BodySpec {
   std::string name;
   std::filesystem::path mesh_file;  // empty: a fish without a drawn skin
   std::string mesh_where;           // place of the mesh in the scene, for messages
   sim::Mesh mesh;
   sim::ClothOptions cloth;
-  std::optional<FishSpec> fish;                                // set: this body is a fish, and `cloth` means nothing
+  std::optional<sim::SoftBodyOptions> soft;                    // set: a soft body, and `cloth` means nothing
+  std::optional<FishSpec> fish;                                // set: a fish, and `cloth` means nothing
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
   std::filesystem::path texture_file;                          // empty: plain colour
   render::Image texture;
@@ -94,7 +96,7 @@ struct Scene {
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
 /// All bodies of the scene as one structure, in order. Throws InputError located at the mesh of a body that makes no
-/// cloth.
+/// cloth or soft body.
 sim::Structure build_structure(const Scene& scene);
 
 }  // namespace billow::cli

@@ -1,8 +1,9 @@
-// The files that a body names: its mesh, where its pins are, and its texture.
+// The files that a body names: its mesh, what the scene says of the mesh's vertices, and its texture.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "cli/particle_expression.h"
 #include "cli/scene_parts.h"
 #include "render/png.h"
 #include "sim/error.h"
@@ -40,8 +41,32 @@ std::vector<int> pinned_vertices(const sim::Mesh& mesh, const BodyDraft& draft) 
   std::sort(pinned.begin(), pinned.end());
   pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
   if (pinned.size() == static_cast<std::size_t>(mesh.vertices()))
-    fail_at(draft.pins_where, "the pins hold every vertex, so nothing of the cloth can move");
+    fail_at(draft.pins_where, "the pins hold every vertex, so nothing of the body can move");
   return pinned;
+}
+
+// Positive factors (v), one per vertex; none for the constant 1.
+Eigen::VectorXd factors(const sim::Mesh& mesh, const FormulaDraft& formula, std::string_view name) {
+  if (formula.text == FormulaDraft{}.text) return {};
+  const Eigen::VectorXd value =
+      located(formula.where, [&] { return evaluate_at_particles(formula.text, mesh.position, mesh); });
+  for (Eigen::Index v = 0; v < value.size(); ++v)
+    if (!(value(v) > 0.0))
+      fail_at(formula.where,
+              fmt::format("{} must be above 0 everywhere; at vertex {} ({:.4g}, {:.4g}, {:.4g}) it is "
+                          "{:.4g}",
+                          name, v, mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2), value(v)));
+  return value;
+}
+
+void find_material(const BodyDraft& draft, const sim::Mesh& mesh, sim::SoftBodyOptions& soft) {
+  soft.stiffness_factor = factors(mesh, draft.stiffness_factor, "the variation of stiffness");
+  soft.mass_factor = factors(mesh, draft.mass_factor, "the variation of mass");
+}
+
+sim::Structure build_body(const BodySpec& body) {
+  if (body.fish) return sim::build_fish(body.fish->options);
+  return body.soft ? sim::build_soft_body(body.mesh, *body.soft) : sim::build_cloth(body.mesh, body.cloth);
 }
 
 }  // namespace
@@ -57,16 +82,14 @@ BodySpec load_body(BodyDraft draft) {
   const sim::Mesh mesh = located(spec.mesh_where, [&] { return sim::import_mesh(spec.mesh_file); });
   if (spec.fish) return spec.mesh = mesh, std::move(spec);
   spec.mesh = sim::transformed(mesh, draft.rotation, draft.scale, draft.translation);
-  spec.cloth.pinned = pinned_vertices(spec.mesh, draft);
+  (spec.soft ? spec.soft->surface : spec.cloth).pinned = pinned_vertices(spec.mesh, draft);
+  if (spec.soft) find_material(draft, spec.mesh, *spec.soft);
   return std::move(spec);
 }
 
 sim::Structure build_structure(const Scene& scene) {
   std::vector<sim::Structure> parts;
-  for (const BodySpec& body : scene.bodies)
-    parts.push_back(located(body.mesh_where, [&] {
-      return body.fish ? sim::build_fish(body.fish->options) : sim::build_cloth(body.mesh, body.cloth);
-    }));
+  for (const BodySpec& body : scene.bodies) parts.push_back(located(body.mesh_where, [&] { return build_body(body); }));
   return sim::merge(parts);
 }
 

@@ -1,4 +1,4 @@
-// bodies: in a scene: cloths, their material, pins and place.
+// bodies: in a scene: cloths and soft bodies, their material, pins and place.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -25,12 +25,23 @@ void check_name(const std::string& name, const std::string& where) {
                                name.substr(0, max_name_length), max_name_length));
 }
 
+void read_surface_springs(MapReader& stiffness, sim::ClothOptions& options) {
+  options.structural = stiffness.number("structural", options.structural);
+  options.shear = stiffness.number("shear", options.shear);
+  options.bend = stiffness.number("bend", options.bend);
+}
+
 void read_stiffness(MapReader& cloth, sim::ClothOptions& options) {
   MapReader map = cloth.map("stiffness", keys::stiffness);
-  options.structural = map.number("structural", options.structural);
-  options.shear = map.number("shear", options.shear);
-  options.bend = map.number("bend", options.bend);
+  read_surface_springs(map, options);
   options.max_eigenvalue = map.number_or_word("max_eigenvalue");
+}
+
+void read_stiffness(MapReader& soft, sim::SoftBodyOptions& options) {
+  MapReader map = soft.map("stiffness", keys::soft_stiffness);
+  read_surface_springs(map, options.surface);
+  options.interior = map.number("interior", options.interior);
+  options.surface.max_eigenvalue = map.number_or_word("max_eigenvalue");
 }
 
 void read_damping(MapReader& cloth, sim::ClothOptions& options) {
@@ -120,23 +131,64 @@ void read_pins(MapReader& cloth, BodyDraft& draft) {
   cloth.record("pins", make_list(std::move(record)));
 }
 
-void read_cloth(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
-  body.require("cloth");
-  MapReader map = body.map("cloth", keys::cloth);
-  sim::ClothOptions& options = draft.spec.cloth;
+void read_mesh(MapReader& map, const std::filesystem::path& folder, BodyDraft& draft) {
   draft.spec.mesh_file = folder / map.text("mesh");
   draft.spec.mesh_where = map.where("mesh");
   read_transform(map, draft);
+}
+
+void read_mass(MapReader& map, sim::ClothOptions& options) {
   options.mass = map.number("mass", options.mass);
   enum class Distribution { area, uniform };
   const auto by_default = options.mass_by_area ? Distribution::area : Distribution::uniform;
   options.mass_by_area = map.choice("mass_distribution", by_default) == Distribution::area;
+}
+
+void read_cloth(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
+  body.require("cloth");
+  MapReader map = body.map("cloth", keys::cloth);
+  sim::ClothOptions& options = draft.spec.cloth;
+  options.name = draft.spec.name;
+  read_mesh(map, folder, draft);
+  read_mass(map, options);
   options.spring_model = map.choice("model", options.spring_model);
   read_stiffness(map, options);
   options.buckling_rigidity = map.number("buckling_rigidity", options.buckling_rigidity);
   read_damping(map, options);
   draft.spec.initial_velocity = map.vector("velocity", draft.spec.initial_velocity);
   read_pins(map, draft);
+}
+
+FormulaDraft read_formula(MapReader& map, std::string_view key) {
+  return {map.text(key, FormulaDraft{}.text), map.where(key)};
+}
+
+void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
+  MapReader map = body.map("soft", keys::soft);
+  sim::SoftBodyOptions& options = draft.spec.soft.emplace();
+  options.surface.name = draft.spec.name;
+  read_mesh(map, folder, draft);
+  read_mass(map, options.surface);
+  read_stiffness(map, options);
+  MapReader variation = map.map("variation", keys::variation);
+  draft.stiffness_factor = read_formula(variation, "stiffness");
+  draft.mass_factor = read_formula(variation, "mass");
+  read_damping(map, options.surface);
+  draft.spec.initial_velocity = map.vector("velocity", draft.spec.initial_velocity);
+  read_pins(map, draft);
+}
+
+// A body without any of the kinds misses `cloth`, the commonest.
+std::string_view kind_of(const MapReader& body) {
+  std::string_view kind;
+  for (const std::string_view known : {"cloth", "soft", "fish"}) {
+    if (!body.find(known)) continue;
+    if (!kind.empty())
+      fail_at(body.where(known),
+              fmt::format("a body is a cloth, a soft body or a fish, and this one has '{}' and '{}'", kind, known));
+    kind = known;
+  }
+  return kind.empty() ? "cloth" : kind;
 }
 
 void read_texture(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
@@ -152,13 +204,10 @@ BodyDraft read_body(const Node& node, int index, const std::filesystem::path& fo
   BodyDraft draft;
   draft.spec.name = map.text("name", fmt::format("body_{}", index));
   check_name(draft.spec.name, map.where("name"));
-  draft.spec.cloth.name = draft.spec.name;
-  if (map.find("cloth") && map.find("fish"))
-    fail_at(map.where("fish"), "a body is a cloth or a fish, and this one has both");
-  if (map.find("fish"))
-    read_fish(map, folder, draft);
-  else
-    read_cloth(map, folder, draft);
+  const std::string_view kind = kind_of(map);
+  if (kind == "cloth") read_cloth(map, folder, draft);
+  if (kind == "soft") read_soft(map, folder, draft);
+  if (kind == "fish") read_fish(map, folder, draft);
   read_texture(map, folder, draft);
   draft.spec.colour = read_colour(map, "colour", draft.spec.colour);
   return draft;

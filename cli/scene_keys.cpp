@@ -23,7 +23,8 @@ const Section scene{"the scene",
                      {"strip", {}, {"none"}},
                      {"spectrum", {}, {"none"}}}};
 
-const Section body{"body", {{"name"}, {"cloth"}, {"fish"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
+const Section body{"body",
+                   {{"name"}, {"cloth"}, {"soft"}, {"fish"}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}}};
 
 const Section cloth{"cloth",
                     {{"mesh"},
@@ -58,6 +59,26 @@ const Section transform{
     "transform", {{"scale", above_0(1e6)}, {"rotate", within(3600, "degrees")}, {"translate", within(1e6, "m")}}};
 
 const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600, "degrees")}}};
+
+const Section soft{"soft",
+                   {{"mesh"},
+                    {"transform"},
+                    {"mass", above_0(1e6, "kg")},
+                    {"mass_distribution", {}, {"area", "uniform"}},
+                    {"stiffness"},
+                    {"variation"},
+                    {"damping"},
+                    {"velocity", within(1e4, "m/s")},
+                    {"pins"}}};
+
+const Section soft_stiffness{"stiffness",
+                             {{"structural", above_0(1e12, "N/m")},
+                              {"shear", at_least_0(1e12, "N/m")},
+                              {"bend", at_least_0(1e12, "N/m")},
+                              {"interior", above_0(1e12, "N/m")},
+                              {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
+
+const Section variation{"variation", {{"stiffness"}, {"mass"}}};
 
 const Section fish{"fish",
                    {{"skin"},
@@ -148,6 +169,13 @@ const std::vector<PlacedSection>& all() {
                                                    {"bodies[].cloth.stiffness", &stiffness},
                                                    {"bodies[].cloth.damping", &damping},
                                                    {"bodies[].cloth.pins[]", &pin},
+                                                   {"bodies[].soft", &soft},
+                                                   {"bodies[].soft.transform", &transform},
+                                                   {"bodies[].soft.transform.rotate", &axis_angle},
+                                                   {"bodies[].soft.stiffness", &soft_stiffness},
+                                                   {"bodies[].soft.variation", &variation},
+                                                   {"bodies[].soft.damping", &damping},
+                                                   {"bodies[].soft.pins[]", &pin},
                                                    {"bodies[].fish", &fish},
                                                    {"bodies[].fish.mass", &fish_mass},
                                                    {"bodies[].fish.stiffness", &fish_stiffness},

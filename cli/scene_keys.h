@@ -9,7 +9,8 @@
 namespace billow::cli::keys {
 
 extern const Section scene, body, cloth, stiffness, damping, pin, transform, axis_angle, solver, filter, render, camera,
-    background, strip, spectrum, fish, fish_mass, fish_stiffness, motion, motion_key, water;
+    background, strip, spectrum, soft, soft_stiffness, variation, fish, fish_mass, fish_stiffness, motion, motion_key,
+    water;
 
 /// A section and where it stands in a scene, "bodies[].cloth.pins[]" being every entry of a list: what a scene's schema
 /// must say as well.

@@ -17,6 +17,11 @@ struct PinDraft {
   std::string where;
 };
 
+/// A formula over a body's particles (particle_expression.h), and where it stands.
+struct FormulaDraft {
+  std::string text = "1", where;
+};
+
 /// A body as the YAML has it, and what is needed to load its files.
 struct BodyDraft {
   BodySpec spec;  // without mesh, texture and pinned vertices
@@ -24,6 +29,7 @@ struct BodyDraft {
   double scale = 1.0;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::vector<PinDraft> pins;
+  FormulaDraft stiffness_factor, mass_factor;  // of a soft body
   std::string pins_where, texture_where;
 };
 

@@ -28,6 +28,12 @@ Json as_json(const sim::Structure& s) {
   return json;
 }
 
+// One value, or the smallest and the largest.
+std::string extent(const Eigen::VectorXd& values, std::string_view unit) {
+  const std::string low = fmt::format("{:.4g}", values.minCoeff()), high = fmt::format("{:.4g}", values.maxCoeff());
+  return low == high ? fmt::format("{} {}", low, unit) : fmt::format("{} to {} {}", low, high, unit);
+}
+
 void print_summary(const sim::Structure& s) {
   for (const sim::Body& body : s.body) {
     const auto mass = s.mass.segment(body.first_particle, body.particles);
@@ -37,8 +43,8 @@ void print_summary(const sim::Structure& s) {
     std::map<sim::SpringKind, std::vector<int>> kinds;
     for (int k = body.first_spring; k < body.first_spring + body.springs; ++k) kinds[s.kind[k]].push_back(k);
     for (const auto& [kind, springs] : kinds)
-      fmt::print("  {:<10} {:>7} springs of {:.4g} N/m, {:.4g} to {:.4g} m\n", name(kind), springs.size(),
-                 s.stiffness(springs.front()), s.rest_length(springs).minCoeff(), s.rest_length(springs).maxCoeff());
+      fmt::print("  {:<10} {:>7} springs of {}, {}\n", name(kind), springs.size(), extent(s.stiffness(springs), "N/m"),
+                 extent(s.rest_length(springs), "m"));
   }
 }
 

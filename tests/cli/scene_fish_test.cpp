@@ -44,7 +44,7 @@ TEST(SceneFish, IsRefusedWithThePlace) {
     return test::scene_error(folder.scene("billow: 1\nbodies: [{" + body + "}]\n" + rest));
   };
   EXPECT_EQ(error("fish: {}, cloth: {mesh: cloth.obj}"),
-            "scene.yaml:2:17: a body is a cloth or a fish, and this one has both");
+            "scene.yaml:2:17: a body is a cloth, a soft body or a fish, and this one has 'cloth' and 'fish'");
   EXPECT_EQ(error("fish: {mass: {rings: [1, 2]}}"), "scene.yaml:2:32: rings must list 5 masses, from head to tail");
   EXPECT_EQ(error("fish: {motion: {keys: [{time: 0}, {time: 0.2}]}}"),
             "scene.yaml:2:45: keys[1] must come at least the transition of 0.5 s after keys[0]");

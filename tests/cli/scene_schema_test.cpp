@@ -117,7 +117,7 @@ void expect_same_defaults(const Json& object, const cli::Node& map) {
   for (const auto& [key, property] : object["properties"].items()) {
     SCOPED_TRACE(key);
     const cli::Entry* entry = map.find(key);
-    if (!entry && (key == "cloth" || key == "fish")) continue;  // a body is one of them
+    if (!entry && (key == "cloth" || key == "soft" || key == "fish")) continue;  // a body is one of them
     ASSERT_TRUE(entry);
     if (entry->value->kind == cli::Node::Kind::map)
       expect_same_defaults(as_object(property), *entry->value);
@@ -146,6 +146,14 @@ TEST(SceneSchema, HasTheReadersDefaultsForAFish) {
   expect_same_defaults(at(schema(), "bodies[]"), body);
   const cli::Node& motion = *body.find("fish")->value->find("motion")->value;
   EXPECT_EQ(motion.find("keys")->value->items.size(), 1u);
+}
+
+TEST(SceneSchema, HasTheReadersDefaultsForASoftBody) {
+  const test::SceneFolder folder;
+  folder.write("block.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto file = folder.scene("billow: 1\nbodies: [{soft: {mesh: block.obj}}]\n");
+  const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
+  expect_same_defaults(at(schema(), "bodies[]"), *effective->find("bodies")->value->items.at(0));
 }
 
 TEST(SceneFormat, ExplainsEveryKeyAndWord) {
