@@ -4,99 +4,74 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/parallel.h"
 #include "sim/spring_law.h"
+#include "sim/spring_pass.h"
 
 namespace billow::sim {
 
 namespace {
 
-/// Raw columns of the arrays that a spring pass reads and writes.
-struct SpringPass {
-  const int *first, *second;
-  const double *rest_length, *stiffness, *damping;
-  const double *x, *y, *z, *vx, *vy, *vz;
-  double *fx, *fy, *fz;
+// Fewer particles than this are not worth a thread's while.
+constexpr int least_part = 2048;
 
-  SpringPass(const Structure& s, const State& state, Eigen::MatrixX3d& force)
-      : first(s.spring.col(0).data()),
-        second(s.spring.col(1).data()),
-        rest_length(s.rest_length.data()),
-        stiffness(s.stiffness.data()),
-        damping(s.damping.data()),
-        x(state.position.col(0).data()),
-        y(state.position.col(1).data()),
-        z(state.position.col(2).data()),
-        vx(state.velocity.col(0).data()),
-        vy(state.velocity.col(1).data()),
-        vz(state.velocity.col(2).data()),
-        fx(force.col(0).data()),
-        fy(force.col(1).data()),
-        fz(force.col(2).data()) {}
-
-  void push(int i, int j, double x_part, double y_part, double z_part) const {
-    fx[i] += x_part, fy[i] += y_part, fz[i] += z_part;
-    fx[j] -= x_part, fy[j] -= y_part, fz[j] -= z_part;
+SpringColumns columns_of(const State& state, Eigen::MatrixX3d& force) {
+  SpringColumns columns{};
+  for (int axis = 0; axis < 3; ++axis) {
+    columns.position[axis] = state.position.col(axis).data();
+    columns.velocity[axis] = state.velocity.col(axis).data();
+    columns.force[axis] = force.col(axis).data();
   }
-};
-
-// Elastic part: `law(spring, length)` is the tension. A spring of zero length has no direction and pushes nowhere.
-template <class Law>
-void add_elastic(const SpringPass& p, int begin, int end, const Law& law) {
-  for (int s = begin; s < end; ++s) {
-    const int i = p.first[s], j = p.second[s];
-    const double dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
-    const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const double scale = length > 0.0 ? law(s, length) / length : 0.0;
-    p.push(i, j, scale * dx, scale * dy, scale * dz);
-  }
+  return columns;
 }
 
-void add_elastic(const SpringPass& p, const Structure& structure, const Body& body) {
-  const int begin = body.first_spring, end = begin + body.springs;
-  if (body.spring_model == SpringModel::linear)
-    add_elastic(p, begin, end, [&](int s, double l) { return p.stiffness[s] * (l - p.rest_length[s]); });
+void add_bands(const SpringBands& bands, const SpringColumns& columns) {
+  // A part repeats the springs that reach into it from before: it should be long compared with the longest stride.
+  const int parts = parts_of(bands.particles, std::max(least_part, 8 * bands.stride.back()));
+  const auto begin = [&](int part) {
+    const auto even = std::int64_t{bands.particles} * part / parts;
+    return part == parts ? bands.particles : static_cast<int>(even / band_group * band_group);
+  };
+  for_each_part(parts, [&](int part) { add_band_forces(bands, columns, begin(part), begin(part + 1)); });
+}
+
+void add_slices(const SpringSlices& slices, const SpringColumns& columns) {
+  const int blocks = static_cast<int>(slices.block.size());
+  if (parts_of(slices.particles, least_part) > 1)
+    for_each_part(blocks, [&](int block) { add_slice_forces(slices, columns, block); });
   else
-    add_elastic(p, begin, end, [&](int s, double l) {
-      return tension(body, structure.kind[s], l, p.rest_length[s], p.stiffness[s]).force;
-    });
+    for (int block = 0; block < blocks; ++block) add_slice_forces(slices, columns, block);
 }
 
-// c (u . w) u along the spring, w the relative velocity: rigid rotation has u . w = 0 and is not damped.
-void add_projected_damping(const SpringPass& p, int begin, int end) {
-  for (int s = begin; s < end; ++s) {
-    const int i = p.first[s], j = p.second[s];
-    const double dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
-    const double wx = p.vx[j] - p.vx[i], wy = p.vy[j] - p.vy[i], wz = p.vz[j] - p.vz[i];
-    const double square = dx * dx + dy * dy + dz * dz;
-    const double scale = square > 0.0 ? p.damping[s] * (dx * wx + dy * wy + dz * wz) / square : 0.0;
-    p.push(i, j, scale * dx, scale * dy, scale * dz);
+// One spring after another: the models whose tension is a function of its own.
+void add_other(const Structure& structure, const Body& body, const State& state, Eigen::MatrixX3d& force) {
+  for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
+    const int i = structure.spring(s, 0), j = structure.spring(s, 1);
+    const Eigen::RowVector3d d = state.position.row(j) - state.position.row(i);
+    const double length = d.norm();
+    if (length == 0.0 && body.damping_model == DampingModel::projected) continue;
+    Eigen::RowVector3d pull = Eigen::RowVector3d::Zero();
+    if (length > 0.0)
+      pull =
+          tension(body, structure.kind[s], length, structure.rest_length(s), structure.stiffness(s)).force / length * d;
+    if (structure.damping(s) > 0.0) {
+      const Eigen::RowVector3d w = state.velocity.row(j) - state.velocity.row(i);
+      const double c = structure.damping(s);
+      pull +=
+          body.damping_model == DampingModel::projected ? (c * d.dot(w) / d.squaredNorm() * d).eval() : (c * w).eval();
+    }
+    force.row(i) += pull;
+    force.row(j) -= pull;
   }
-}
-
-// c w: also damps rigid rotation, the common incorrect model.
-void add_relative_damping(const SpringPass& p, int begin, int end) {
-  for (int s = begin; s < end; ++s) {
-    const int i = p.first[s], j = p.second[s];
-    const double c = p.damping[s];
-    p.push(i, j, c * (p.vx[j] - p.vx[i]), c * (p.vy[j] - p.vy[i]), c * (p.vz[j] - p.vz[i]));
-  }
-}
-
-bool is_damped(const Structure& structure, const Body& body) {
-  return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
 }
 
 }  // namespace
 
 void SpringForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
-  const SpringPass pass(structure_, state, force);
-  for (const Body& body : structure_.body) {
-    add_elastic(pass, structure_, body);
-    if (!is_damped(structure_, body)) continue;
-    const auto add_damping =
-        body.damping_model == DampingModel::projected ? add_projected_damping : add_relative_damping;
-    add_damping(pass, body.first_spring, body.first_spring + body.springs);
-  }
+  const SpringColumns columns = columns_of(state, force);
+  for (const SpringBands& bands : plan_.bands) add_bands(bands, columns);
+  for (const SpringSlices& slices : plan_.slices) add_slices(slices, columns);
+  for (const int body : plan_.others) add_other(structure_, structure_.body[body], state, force);
 }
 
 double SpringForce::energy(const State& state) const {

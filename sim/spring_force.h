@@ -2,13 +2,15 @@
 #pragma once
 
 #include "sim/forces.h"
+#include "sim/spring_plan.h"
 
 namespace billow::sim {
 
 /// f_i = T(|d|) d/|d| + damping, d = x_j - x_i, for every spring of the structure, by each body's model.
+/// The springs are laid out for the vector passes when this is made: the structure must not change after that.
 class SpringForce : public ForceTerm {
  public:
-  explicit SpringForce(const Structure& structure) : structure_(structure) {}
+  explicit SpringForce(const Structure& structure) : structure_(structure), plan_(structure) {}
   void add_force(const State& state, Eigen::MatrixX3d& force) const override;
   double energy(const State& state) const override;
   void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
@@ -16,6 +18,7 @@ class SpringForce : public ForceTerm {
 
  private:
   const Structure& structure_;
+  SpringPlan plan_;
 };
 
 }  // namespace billow::sim

@@ -1,0 +1,63 @@
+// The springs of a structure laid out for the vector passes: derived once, then read in order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/aligned.h"
+#include "sim/structure.h"
+
+namespace billow::sim {
+
+/// Particles are taken in groups of this many, whatever the processor's vectors hold (2, 4 or 8 doubles).
+constexpr int band_group = 8;
+
+/// Springs of a body numbered row by row, such as a grid's: every spring joins i and i + stride for one of a few
+/// strides. Spring k of particle i is at [(i / 8 * strides + k) * 8 + i % 8]; where there is none, its stiffness is 0.
+struct SpringBands {
+  int first_particle = 0, particles = 0;
+  std::vector<int> stride;  // ascending, > 0
+  bool damped = false;
+  DampingModel damping_model = DampingModel::projected;
+  AlignedVector<double> rest_length;  // [m]
+  AlignedVector<double> stiffness;    // [N/m]
+  AlignedVector<double> damping;      // [N s/m] empty where nothing is damped
+};
+
+/// Springs of any other body, sorted by their first end and taken four at a time; particles are taken four at a time
+/// too, a slice. A slice adds the forces of the springs that start in it and subtracts those of the springs that end in
+/// it. Springs' forces wait for that in a ring, each at its number modulo the ring's size.
+struct SpringSlices {
+  int first_particle = 0, particles = 0;
+  bool damped = false;
+  DampingModel damping_model = DampingModel::projected;
+  std::vector<int> first, second;         //         ends, from the body's first particle; padded to whole quads
+  AlignedVector<double> rest_length;      // [m]
+  AlignedVector<double> stiffness;        // [N/m]   0 in the padding
+  AlignedVector<double> damping;          // [N s/m]
+  int ring = 0;                           //         springs in the ring, a power of two; slot `ring` stays zero
+  std::vector<int> slice_quads;           //         quads that must have been done before slice t can be summed
+  std::vector<int> entry_begin;           //         slice t's places in the ring: entry[entry_begin[t]] ...
+  std::vector<int> plus;                  //         of which this many, times four, are added, the rest subtracted
+  std::vector<std::uint32_t> entry;       //         offset in the ring, in doubles; four particles side by side
+  struct Block {                          //         a run of slices small enough for the cache
+    int first_slice = 0, last_slice = 0;  //         [first, last)
+    int first_quad = 0;                   //         the earliest that it needs
+    int low = 0, high = 0;                //         [low, high) particles that its springs touch
+  };
+  std::vector<Block> block;
+};
+
+/// Slices whose springs are computed ahead of the one that is being summed.
+constexpr int slice_lead = 2;
+
+/// Each body of linear springs as bands or as slices; bodies of another model are left to the plain pass.
+struct SpringPlan {
+  explicit SpringPlan(const Structure& structure);
+
+  std::vector<SpringBands> bands;
+  std::vector<SpringSlices> slices;
+  std::vector<int> others;  // bodies that are neither
+};
+
+}  // namespace billow::sim
