@@ -15,7 +15,7 @@ namespace {
 int find_cloth(MapReader& map, const std::vector<BodyDraft>& drafts) {
   std::vector<std::string_view> cloths;
   for (const BodyDraft& draft : drafts)
-    if (!draft.spec.fish) cloths.push_back(draft.spec.name);
+    if (!draft.spec.fish && !draft.spec.soft) cloths.push_back(draft.spec.name);
   const Node* given = map.find("body");
   if (cloths.empty()) fail_at(map.where(), "a spectrum is taken of a cloth, and the scene has none; remove 'spectrum'");
   const std::string wanted = given ? read_text(*given, "body") : std::string(cloths.front());

@@ -1,0 +1,79 @@
+// The spectrum against waves whose spectrum is known.
+#include "render/spectrum.h"
+
+#include <numbers>
+
+namespace billow::render {
+namespace {
+
+constexpr int width = 24, height = 18;
+
+/// A wave along x and y of so many cycles per side in the z component.
+Eigen::MatrixX3d wave(int cycles_x, int cycles_y, double amplitude) {
+  Eigen::MatrixX3d velocity = Eigen::MatrixX3d::Zero(width * height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double turn = static_cast<double>(cycles_x) * x / width + static_cast<double>(cycles_y) * y / height;
+      velocity(y * width + x, 2) = amplitude * std::cos(2.0 * std::numbers::pi * turn);
+    }
+  return velocity;
+}
+
+// A cos(k x) has the power A^2 / 4 at k and at -k.
+TEST(Spectrum, OfAWaveIsTwoPeaks) {
+  const Spectrum spectrum = spectrum_of(wave(5, -3, 2.0), width, height);
+  EXPECT_NEAR(spectrum.power(height / 2 - 3, width / 2 + 5), 1.0, 1e-12);
+  EXPECT_NEAR(spectrum.power(height / 2 + 3, width / 2 - 5), 1.0, 1e-12);
+  EXPECT_NEAR(spectrum.power.sum(), 2.0, 1e-12);
+}
+
+TEST(Spectrum, OfRestButOneVelocityIsTheZeroFrequency) {
+  const Eigen::MatrixX3d velocity = Eigen::RowVector3d(1.0, 2.0, 2.0).replicate(width * height, 1);
+  const Spectrum spectrum = spectrum_of(velocity, width, height);
+  EXPECT_NEAR(spectrum.power(height / 2, width / 2), 9.0, 1e-12);
+  EXPECT_NEAR(radial_power(spectrum)(0), 9.0, 1e-12);
+}
+
+// Parseval: the powers sum to the mean square speed, in the plane and by radius.
+TEST(Spectrum, KeepsTheMeanSquareSpeed) {
+  const Eigen::MatrixX3d velocity = wave(1, 2, 0.7) + wave(6, 0, 0.2) + wave(11, 9, 1.1);
+  const double mean_square = velocity.squaredNorm() / velocity.rows();
+  const Spectrum spectrum = spectrum_of(velocity, width, height);
+  EXPECT_NEAR(spectrum.power.sum(), mean_square, 1e-12);
+  EXPECT_NEAR(radial_power(spectrum).sum(), mean_square, 1e-12);
+}
+
+TEST(Spectrum, RadiallyStandsAtItsWholeFrequency) {
+  const Eigen::VectorXd radial = radial_power(spectrum_of(wave(3, 4, 2.0), width, height));
+  EXPECT_NEAR(radial(5), 2.0, 1e-12);
+  EXPECT_NEAR(radial.sum() - radial(5), 0.0, 1e-12);
+}
+
+TEST(Spectrum, MeanIsOfPowers) {
+  SpectrumMean mean;
+  EXPECT_TRUE(mean.empty());
+  mean.add(spectrum_of(wave(2, 0, 2.0), width, height));
+  mean.add(spectrum_of(wave(4, 0, 2.0), width, height));
+  EXPECT_NEAR(radial_power(mean.mean())(2), 1.0, 1e-12);
+  EXPECT_NEAR(radial_power(mean.mean())(4), 1.0, 1e-12);
+}
+
+// 20 dB below the strongest is half way down a range of 40.
+TEST(Spectrum, PictureIsLogarithmic) {
+  Spectrum spectrum{Eigen::MatrixXd::Zero(1, 3)};
+  spectrum.power << 1.0, 0.01, 1e-9;
+  const Image picture = spectrum_picture(spectrum, 40.0);
+  EXPECT_EQ(picture.pixels[0], 255);
+  EXPECT_EQ(picture.pixels[3], 128);
+  EXPECT_EQ(picture.pixels[6], 0);
+}
+
+TEST(Spectrum, VelocityPictureHasAPixelPerCell) {
+  Eigen::MatrixX3d velocity(2, 3);
+  velocity << 0.0, 0.0, 0.0, 2.0, -2.0, 0.0;
+  const Image picture = velocity_picture(velocity, 2, 1, 2.0);
+  EXPECT_EQ(picture.pixels, (std::vector<std::uint8_t>{128, 128, 128, 255, 0, 128}));
+}
+
+}  // namespace
+}  // namespace billow::render
