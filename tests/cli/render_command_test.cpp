@@ -127,6 +127,7 @@ TEST_F(RenderCommand, ResumesOnlyWhatIsMissing) {
   fs::remove(film("textured/frame_0007.png"));
   ASSERT_EQ(render({"--resume"}).status, 0);
   EXPECT_EQ(record()["images_written"], 1);
+  EXPECT_NE(test::read_text(film("index.html")).find("1 written, 21 kept from an earlier run"), std::string::npos);
   EXPECT_EQ(record()["images_kept"], 21);
   EXPECT_EQ(test::read_text(film("textured/frame_0007.png")), before);
 }
@@ -156,6 +157,7 @@ TEST_F(RenderCommand, FinishesCleanlyWhenInterrupted) {
   const ToolResult result = render({}, 0.1, film("velocity/frame_0003.png"));
   EXPECT_EQ(result.status, 130) << result.errors;
   EXPECT_EQ(record()["status"], "interrupted");
+  EXPECT_NE(test::read_text(film("index.html")).find("This run was interrupted at "), std::string::npos);
   EXPECT_GE(whole_images("textured"), 3);
   EXPECT_LT(whole_images("textured"), 5000);
   EXPECT_EQ(whole_images("textured") + whole_images("velocity"), record()["images_written"]);
