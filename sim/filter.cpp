@@ -7,7 +7,10 @@
 #include <numeric>
 
 #include "sim/error.h"
+#include "sim/filter_pass.h"
+#include "sim/parallel.h"
 #include "sim/random.h"
+#include "sim/spring_plan.h"
 
 namespace billow::sim {
 
@@ -16,6 +19,8 @@ std::string_view name(FilterTarget target) { return target == FilterTarget::velo
 namespace {
 
 using Pair = std::pair<int, int>;
+
+constexpr int least_part = 2048;  // particles
 
 // Both directions of every spring.
 std::vector<Pair> spring_neighbours(const Structure& structure) {
@@ -154,14 +159,15 @@ Filter::Filter(const Structure& structure, FilterOptions options)
   pattern_.first.assign(structure.particles() + 1, 0);
   for (const auto& [i, j] : pairs) ++pattern_.first[i + 1], pattern_.column.push_back(j);
   std::partial_sum(pattern_.first.begin(), pattern_.first.end(), pattern_.first.begin());
-  pattern_.distance.resize(pairs.size());
+  distance_.resize(pairs.size());
   for (std::size_t e = 0; e < pairs.size(); ++e) {
     const auto [i, j] = pairs[e];
-    pattern_.distance(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
+    distance_(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
   }
+  plan_ = FilterPlan(structure, pattern_);
   strength_ = Eigen::VectorXd::Ones(structure.particles());
   if (options_.form == FilterForm::conserving) keep_spectrum_positive();
-  if (constant_weights()) rest_weights_ = compute_weights(nullptr, 0.0);
+  if (constant_weights()) rest_weights_ = arranged(compute_weights(nullptr, 0.0));
 }
 
 bool Filter::constant_weights() const {
@@ -170,13 +176,13 @@ bool Filter::constant_weights() const {
 
 Filter::Weights Filter::compute_weights(const Eigen::MatrixX3d* position, double time) const {
   const double lambda = options_.lambda * key_factor(options_.lambda_keys, time);
-  Weights weights{Eigen::VectorXd(structure_.particles()), Eigen::VectorXd(pattern_.distance.size())};
+  Weights weights{Eigen::VectorXd(structure_.particles()), Eigen::VectorXd(distance_.size())};
   for (int i = 0; i < structure_.particles(); ++i) {
     const double scale = options_.lambda_scale.size() ? options_.lambda_scale(i) : 1.0;
     double sum = 1.0;  // the particle itself, at distance 0
     for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) {
       const double distance =
-          position ? (position->row(i) - position->row(pattern_.column[e])).norm() / unit_(i) : pattern_.distance(e);
+          position ? (position->row(i) - position->row(pattern_.column[e])).norm() / unit_(i) : distance_(e);
       sum += weights.neighbour(e) = kernel(options_.kernel, lambda * scale, distance);
     }
     // symmetric: sum_j beta_j (v_j + v_i) / 2 = (I + B) / 2
@@ -204,7 +210,7 @@ void Filter::keep_spectrum_positive() {
   double strongest = 0.0;  // the time of the smallest lambda
   for (const auto& [time, factor] : options_.lambda_keys)
     if (factor < key_factor(options_.lambda_keys, strongest)) strongest = time;
-  const Weights weights = compute_weights(nullptr, strongest);
+  const AlignedVector<double> weights = arranged(compute_weights(nullptr, strongest));
   const Eigen::VectorXd free = structure_.inverse_mass.cwiseSign();
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(structure_.body.size());
   Eigen::MatrixX3d v = free.asDiagonal() * seeded_noise(structure_.particles(), 1);
@@ -250,19 +256,26 @@ void Filter::symmetrise_with_masses(Weights& weights) const {
   weights = std::move(result);
 }
 
-void Filter::apply_once(const Weights& weights, Eigen::MatrixX3d& field) const {
-  const Eigen::MatrixX3d in = field;
-  const double *x = in.col(0).data(), *y = in.col(1).data(), *z = in.col(2).data();
-  for (int i = 0; i < structure_.particles(); ++i) {
-    const double self = weights.self(i);
-    double sx = self * x[i], sy = self * y[i], sz = self * z[i];
-    for (int e = pattern_.first[i]; e < pattern_.first[i + 1]; ++e) {
-      const double w = weights.neighbour(e);
-      const int j = pattern_.column[e];
-      sx += w * x[j], sy += w * y[j], sz += w * z[j];
-    }
-    field(i, 0) = sx, field(i, 1) = sy, field(i, 2) = sz;
-  }
+AlignedVector<double> Filter::arranged(const Weights& weights) const {
+  AlignedVector<double> places;
+  plan_.arrange(weights.self, weights.neighbour, places);
+  return places;
+}
+
+// Into a second field that each thread keeps, which then changes places with the first.
+void Filter::apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const {
+  static thread_local Eigen::MatrixX3d filtered;
+  filtered.resize(field.rows(), 3);
+  FilterColumns columns{};
+  for (int axis = 0; axis < 3; ++axis)
+    columns.in[axis] = field.col(axis).data(), columns.out[axis] = filtered.col(axis).data();
+  for (const FilterBands& bands : plan_.bands)
+    for_each_range(bands.particles, band_group, least_part,
+                   [&](int begin, int end) { filter_bands(bands, weights, columns, begin, end); });
+  for (const FilterSlices& slices : plan_.slices)
+    for_each_block(slices.particles, static_cast<int>(slices.block.size()),
+                   [&](int block) { filter_slices(slices, weights, columns, block); });
+  field.swap(filtered);
 }
 
 void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const {
@@ -272,8 +285,9 @@ void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX
     for (const Body& body : structure_.body) before.push_back(body_motion(structure_, body, position, field));
 
   const bool current = options_.distances == FilterDistances::current;
-  const Weights fresh = constant_weights() ? Weights{} : compute_weights(current ? &position : nullptr, time);
-  const Weights& weights = constant_weights() ? rest_weights_ : fresh;
+  const AlignedVector<double> fresh =
+      constant_weights() ? AlignedVector<double>{} : arranged(compute_weights(current ? &position : nullptr, time));
+  const AlignedVector<double>& weights = constant_weights() ? rest_weights_ : fresh;
   for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field);
 
   for (std::size_t b = 0; b < before.size(); ++b)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/filter_plan.h"
 #include "sim/structure.h"
 
 namespace billow::sim {
@@ -54,27 +55,26 @@ class Filter {
   Eigen::SparseMatrix<double, Eigen::RowMajor> weights(const Eigen::MatrixX3d& position, double time) const;
 
  private:
-  struct Pattern {  // compressed rows: particle i's neighbours are column[first[i]] ... column[first[i+1]-1]
-    std::vector<int> first, column;
-    Eigen::VectorXd distance;  // rest distance of each entry, in mean rest lengths
-  };
   struct Weights {
     Eigen::VectorXd self;       // (n)
-    Eigen::VectorXd neighbour;  // one per Pattern entry
+    Eigen::VectorXd neighbour;  // one per entry of the pattern
   };
 
   Weights compute_weights(const Eigen::MatrixX3d* position, double time) const;
   void symmetrise_with_masses(Weights& weights) const;
   void soften(Weights& weights) const;
   void keep_spectrum_positive();
-  void apply_once(const Weights& weights, Eigen::MatrixX3d& field) const;
+  AlignedVector<double> arranged(const Weights& weights) const;
+  void apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const;
   bool constant_weights() const;
 
   const Structure& structure_;
   FilterOptions options_;
   Eigen::VectorXd unit_;  // (n) [m] the body's mean rest length
-  Pattern pattern_;
-  Weights rest_weights_;
+  NeighbourRows pattern_;
+  Eigen::VectorXd distance_;  // rest distance of each entry of the pattern, in mean rest lengths
+  FilterPlan plan_;
+  AlignedVector<double> rest_weights_;  // constant ones, in the plan's order
   Eigen::VectorXd strength_;  // (n) share of the conserving form's exchange that keeps its body's spectrum in [0, 1]
 };
 

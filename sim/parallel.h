@@ -6,6 +6,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace billow::sim {
 
@@ -21,11 +22,26 @@ inline int parts_of(int particles, int least_part) {
   return std::clamp(particles / least_part, 1, 2 * threads);
 }
 
-/// Runs work(0) ... work(count - 1), on as many threads as the calling arena has.
+/// Runs work(begin, end) over [0, particles) in parts that begin at multiples of `unit`.
 template <class Work>
-void for_each_part(int count, const Work& work) {
-  if (count == 1) return work(0);
-  oneapi::tbb::parallel_for(0, count, work, oneapi::tbb::simple_partitioner{});
+void for_each_range(int particles, int unit, int least_part, const Work& work) {
+  const int parts = parts_of(particles, least_part);
+  if (parts == 1) return work(0, particles);
+  const auto begin = [&](int part) {
+    if (part == parts) return particles;
+    return static_cast<int>(std::int64_t{particles} * part / parts / unit * unit);
+  };
+  oneapi::tbb::parallel_for(
+      0, parts, [&](int part) { work(begin(part), begin(part + 1)); }, oneapi::tbb::simple_partitioner{});
+}
+
+/// Runs work(0) ... work(blocks - 1), blocks being what the plan has cut `particles` into.
+template <class Work>
+void for_each_block(int particles, int blocks, const Work& work) {
+  if (parts_of(particles, 1) > 1)
+    oneapi::tbb::parallel_for(0, blocks, work, oneapi::tbb::simple_partitioner{});
+  else
+    for (int block = 0; block < blocks; ++block) work(block);
 }
 
 }  // namespace billow::sim

@@ -27,20 +27,13 @@ SpringColumns columns_of(const State& state, Eigen::MatrixX3d& force) {
 
 void add_bands(const SpringBands& bands, const SpringColumns& columns) {
   // A part repeats the springs that reach into it from before: it should be long compared with the longest stride.
-  const int parts = parts_of(bands.particles, std::max(least_part, 8 * bands.stride.back()));
-  const auto begin = [&](int part) {
-    const auto even = std::int64_t{bands.particles} * part / parts;
-    return part == parts ? bands.particles : static_cast<int>(even / band_group * band_group);
-  };
-  for_each_part(parts, [&](int part) { add_band_forces(bands, columns, begin(part), begin(part + 1)); });
+  for_each_range(bands.particles, band_group, std::max(least_part, 8 * bands.stride.back()),
+                 [&](int begin, int end) { add_band_forces(bands, columns, begin, end); });
 }
 
 void add_slices(const SpringSlices& slices, const SpringColumns& columns) {
-  const int blocks = static_cast<int>(slices.block.size());
-  if (parts_of(slices.particles, least_part) > 1)
-    for_each_part(blocks, [&](int block) { add_slice_forces(slices, columns, block); });
-  else
-    for (int block = 0; block < blocks; ++block) add_slice_forces(slices, columns, block);
+  for_each_block(slices.particles, static_cast<int>(slices.block.size()),
+                 [&](int block) { add_slice_forces(slices, columns, block); });
 }
 
 // One spring after another: the models whose tension is a function of its own.

@@ -14,17 +14,12 @@
 // After foreach_target: it includes the rest of this file again for each instruction set.
 #include <hwy/highway.h>
 
+#include "sim/vector_rows-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace billow::sim::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 enum class SpringDamping { none, projected, relative };
-
-template <class V>
-struct Vector3 {
-  V x, y, z;
-};
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vector3<V> difference(D d, const double* const to[3], const double* const from[3], std::ptrdiff_t j,
@@ -39,18 +34,19 @@ HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-// k (l - L) / l; a spring of zero length has no direction and pushes nowhere.
+// k (l - L) / l; what is not a spring (L = 0) and a spring of zero length, which has no direction, push nowhere.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V elastic_scale(D d, V square, V rest_length, V stiffness) {
   const V length = hn::Sqrt(square);
   const V scale = hn::Div(hn::Mul(stiffness, hn::Sub(length, rest_length)), length);
-  return hn::IfThenElseZero(hn::Gt(length, hn::Zero(d)), scale);
+  return hn::IfThenElseZero(hn::Gt(hn::Min(length, rest_length), hn::Zero(d)), scale);
 }
 
 // c (d . w) / d^2: c (u . w) u along the spring, w the relative velocity.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V damping_scale(D d, V square, V along, V damping) {
-  return hn::IfThenElseZero(hn::Gt(square, hn::Zero(d)), hn::Div(hn::Mul(damping, along), square));
+HWY_INLINE V damping_scale(D d, V square, V along, V rest_length, V damping) {
+  return hn::IfThenElseZero(hn::Gt(hn::Min(square, rest_length), hn::Zero(d)),
+                            hn::Div(hn::Mul(damping, along), square));
 }
 
 /// The last forces of one stride's springs, [position % length], each axis in a row of length + band_group. The first
@@ -58,6 +54,7 @@ HWY_INLINE V damping_scale(D d, V square, V along, V damping) {
 struct Ring {
   double* axis[3];
   std::ptrdiff_t length, write, read, stride;
+  double stiffness, damping;
 };
 
 // A sum is taken this many particles behind the springs that are being computed, so that what was stored is in the
@@ -75,7 +72,13 @@ template <SpringDamping damping>
 class BandSweep {
  public:
   BandSweep(const SpringBands& bands, int begin, AlignedVector<double>& memory)
-      : bands_(bands), begin_(begin), strides_(bands.stride.size()), ring_(rings(bands, memory)) {}
+      : rest_length_(bands.rest_length.data()),
+        begin_(begin),
+        strides_(static_cast<std::ptrdiff_t>(bands.stride.size())) {
+    std::vector<Ring>& ring = rings(bands, memory);
+    ring_begin_ = ring.data();
+    ring_end_ = ring.data() + ring.size();
+  }
 
   // Springs of particles [from, to) and the sums of [from - lag, to - lag).
   void springs_and_sums(const Segment& segment, int from, int to) {
@@ -110,6 +113,8 @@ class BandSweep {
       const std::ptrdiff_t stride = bands.stride[k];
       ring[k].length = (stride + lag + 2 * band_group - 1) / band_group * band_group;
       ring[k].stride = stride;
+      ring[k].stiffness = bands.stiffness[k];
+      ring[k].damping = bands.damping[k];
       ring[k].write = 0;
       ring[k].read = ring[k].length - lag - stride;
       size += 3 * static_cast<std::size_t>(ring[k].length + band_group);
@@ -124,27 +129,24 @@ class BandSweep {
   HWY_INLINE void start_springs(const Segment& segment, int i) {
     const D d;
     const std::ptrdiff_t lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));
-    std::size_t place = static_cast<std::size_t>(i / band_group) * strides_ * band_group + i % band_group;
+    const double* rest =
+        rest_length_ + static_cast<std::ptrdiff_t>(i / band_group) * strides_ * band_group + i % band_group;
     V sum_x = hn::Zero(d), sum_y = sum_x, sum_z = sum_x;
-    for (Ring* ring = ring_.data(); ring != ring_.data() + strides_; ++ring, place += band_group) {
+    for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring, rest += band_group) {
       const Vector3<V> along = difference(d, segment.position, segment.position, i + ring->stride, i);
-      const V square = dot(along, along);
-      V scale =
-          elastic_scale(d, square, hn::Load(d, &bands_.rest_length[place]), hn::Load(d, &bands_.stiffness[place]));
-      Vector3<V> force;
-      if constexpr (damping == SpringDamping::none) {
-        force = {hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
-      } else {
-        const Vector3<V> relative = difference(d, segment.velocity, segment.velocity, i + ring->stride, i);
-        const V c = hn::Load(d, &bands_.damping[place]);
-        if constexpr (damping == SpringDamping::projected) {
-          scale = hn::Add(scale, damping_scale(d, square, dot(along, relative), c));
-          force = {hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
-        } else {
-          force = {hn::Add(hn::Mul(scale, along.x), hn::Mul(c, relative.x)),
-                   hn::Add(hn::Mul(scale, along.y), hn::Mul(c, relative.y)),
-                   hn::Add(hn::Mul(scale, along.z), hn::Mul(c, relative.z))};
-        }
+      const V square = dot(along, along), rest_length = hn::Load(d, rest);
+      V scale = elastic_scale(d, square, rest_length, hn::Set(d, ring->stiffness));
+      Vector3<V> relative;
+      if constexpr (damping != SpringDamping::none)
+        relative = difference(d, segment.velocity, segment.velocity, i + ring->stride, i);
+      const V coefficient = hn::Set(d, ring->damping);
+      if constexpr (damping == SpringDamping::projected)
+        scale = hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, coefficient));
+      Vector3<V> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
+      if constexpr (damping == SpringDamping::relative) {
+        const V c = hn::IfThenElseZero(hn::Gt(rest_length, hn::Zero(d)), coefficient);
+        force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
+                 hn::Add(force.z, hn::Mul(c, relative.z))};
       }
       store(ring, force, lanes);
       sum_x = hn::Add(sum_x, force.x), sum_y = hn::Add(sum_y, force.y), sum_z = hn::Add(sum_z, force.z);
@@ -171,7 +173,7 @@ class BandSweep {
     const D d;
     const std::ptrdiff_t lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));
     V sum_x = hn::Zero(d), sum_y = sum_x, sum_z = sum_x;
-    for (Ring* ring = ring_.data(); ring != ring_.data() + strides_; ++ring) {
+    for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring) {
       sum_x = hn::Sub(sum_x, hn::LoadU(d, ring->axis[0] + ring->read));
       sum_y = hn::Sub(sum_y, hn::LoadU(d, ring->axis[1] + ring->read));
       sum_z = hn::Sub(sum_z, hn::LoadU(d, ring->axis[2] + ring->read));
@@ -186,7 +188,8 @@ class BandSweep {
   }
 
   HWY_INLINE void advance_reads() {
-    for (Ring& ring : ring_) advance(&ring, static_cast<std::ptrdiff_t>(hn::Lanes(D())));
+    for (Ring* ring = ring_begin_; ring != ring_end_; ++ring)
+      advance(ring, static_cast<std::ptrdiff_t>(hn::Lanes(D())));
   }
 
   HWY_INLINE static void add_to(double* sum, V value) {
@@ -194,10 +197,10 @@ class BandSweep {
     hn::StoreU(hn::Add(hn::LoadU(d, sum), value), d, sum);
   }
 
-  const SpringBands& bands_;
+  const double* rest_length_;
   const int begin_;
-  const std::size_t strides_;
-  std::vector<Ring>& ring_;
+  const std::ptrdiff_t strides_;
+  Ring *ring_begin_, *ring_end_;
 };
 
 /// Room that a thread keeps from pass to pass.
@@ -301,13 +304,6 @@ void add_band_forces(const SpringBands& bands, const SpringColumns& columns, int
 
 // ---- slices ----
 
-// Columns -> one particle's x, y, z, 0 after another.
-void interleave(const double* const column[3], int begin, int end, double* rows) {
-  for (int i = begin; i < end; ++i, rows += 4) {
-    rows[0] = column[0][i], rows[1] = column[1][i], rows[2] = column[2][i], rows[3] = 0.0;
-  }
-}
-
 /// A block's particles, row by row, and the forces of its last springs.
 struct SliceRows {
   const double *position, *velocity;  // entry 4 i is particle i's x
@@ -315,18 +311,6 @@ struct SliceRows {
 };
 
 #if HWY_MAX_BYTES >= 32
-
-using Quad = hn::CappedTag<double, 4>;
-using QV = hn::Vec<Quad>;
-
-/// The x, y and z of four rows.
-HWY_INLINE Vector3<QV> transposed(const std::array<QV, 4>& row) {
-  const Quad d;
-  const QV xz_ab = hn::InterleaveLower(d, row[0], row[1]), y_ab = hn::InterleaveUpper(d, row[0], row[1]);
-  const QV xz_ce = hn::InterleaveLower(d, row[2], row[3]), y_ce = hn::InterleaveUpper(d, row[2], row[3]);
-  return {hn::ConcatLowerLower(d, xz_ce, xz_ab), hn::ConcatLowerLower(d, y_ce, y_ab),
-          hn::ConcatUpperUpper(d, xz_ce, xz_ab)};
-}
 
 /// One value of four in all lanes.
 template <int lane>
@@ -351,8 +335,8 @@ HWY_INLINE void quad_forces(const SpringSlices& slices, const SliceRows& rows, i
   const std::array<QV, 4> along = quads(rows.position);
   const Vector3<QV> along_axes = transposed(along);
   const QV square = dot(along_axes, along_axes);
-  QV scale =
-      elastic_scale(d, square, hn::Load(d, slices.rest_length.data() + at), hn::Load(d, slices.stiffness.data() + at));
+  const QV rest_length = hn::Load(d, slices.rest_length.data() + at);
+  QV scale = elastic_scale(d, square, rest_length, hn::Load(d, slices.stiffness.data() + at));
   std::array<QV, 4> velocity;
   QV coefficient;
   if constexpr (damping != SpringDamping::none) {
@@ -360,7 +344,7 @@ HWY_INLINE void quad_forces(const SpringSlices& slices, const SliceRows& rows, i
     coefficient = hn::Load(d, slices.damping.data() + at);
   }
   if constexpr (damping == SpringDamping::projected)
-    scale = hn::Add(scale, damping_scale(d, square, dot(along_axes, transposed(velocity)), coefficient));
+    scale = hn::Add(scale, damping_scale(d, square, dot(along_axes, transposed(velocity)), rest_length, coefficient));
   double* out = rows.ring + (at & (slices.ring - 1)) * 4;
   const auto store = [&]<int k>() HWY_ATTR {
     QV force = hn::Mul(broadcast<k>(scale), along[k]);
@@ -442,15 +426,15 @@ void sum_slice(const SpringSlices& slices, const double* ring, int slice, double
 template <SpringDamping damping>
 void sweep_slices(const SpringSlices& slices, const Segment& whole, const SpringSlices::Block& block) {
   Scratch& memory = scratch();
-  const auto rows_of = [&](const double* const column[3], AlignedVector<double>& rows) {
+  const auto block_rows = [&](const double* const column[3], AlignedVector<double>& rows) {
     rows.resize(4 * static_cast<std::size_t>(block.high - block.low));
-    interleave(column, block.low, block.high, rows.data());
+    rows_of(column, block.low, block.high, rows.data());
     return rows.data() - 4 * std::ptrdiff_t{block.low};
   };
   memory.ring.resize(4 * static_cast<std::size_t>(slices.ring + 1));
   std::fill(memory.ring.end() - 4, memory.ring.end(), 0.0);
-  const SliceRows rows{rows_of(whole.position, memory.position),
-                       damping == SpringDamping::none ? nullptr : rows_of(whole.velocity, memory.velocity),
+  const SliceRows rows{block_rows(whole.position, memory.position),
+                       damping == SpringDamping::none ? nullptr : block_rows(whole.velocity, memory.velocity),
                        memory.ring.data()};
   int quad = block.first_quad;
   for (int slice = block.first_slice; slice < block.last_slice; ++slice) {

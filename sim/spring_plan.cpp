@@ -34,25 +34,28 @@ bool is_damped(const Structure& structure, const Body& body) {
   return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
 }
 
-SpringBands make_bands(const Structure& structure, const Body& body, const LocalSprings& local,
-                       std::vector<int> stride) {
-  SpringBands bands{body.first_particle, body.particles,     std::move(stride), is_damped(structure, body),
-                    body.damping_model,  /*rest_length=*/{}, /*stiffness=*/{},  /*damping=*/{}};
+// The springs as bands, if those of each stride are of one material; otherwise bands without strides.
+SpringBands make_bands(const Structure& structure, const Body& body, const LocalSprings& local) {
+  SpringBands bands{
+      body.first_particle, body.particles, is_damped(structure, body), body.damping_model, {}, {}, {}, {}};
+  bands.stride = common_strides(local.ends, body.particles);
   const std::size_t strides = bands.stride.size();
-  const std::size_t groups = static_cast<std::size_t>((body.particles + band_group - 1) / band_group);
-  const std::size_t places = groups * strides * band_group;
-  bands.rest_length.assign(places, 1.0);
-  bands.stiffness.assign(places, 0.0);
-  if (bands.damped) bands.damping.assign(places, 0.0);
-  for (std::size_t e = 0; e < local.ends.size(); ++e) {
-    const auto [i, j] = local.ends[e];
-    const auto k = std::lower_bound(bands.stride.begin(), bands.stride.end(), j - i) - bands.stride.begin();
-    const std::size_t place =
-        (static_cast<std::size_t>(i / band_group) * strides + static_cast<std::size_t>(k)) * band_group +
-        static_cast<std::size_t>(i % band_group);
-    bands.rest_length[place] = structure.rest_length(local.spring[e]);
-    bands.stiffness[place] = structure.stiffness(local.spring[e]);
-    if (bands.damped) bands.damping[place] = structure.damping(local.spring[e]);
+  bands.stiffness.assign(strides, -1.0);
+  bands.damping.assign(strides, -1.0);
+  bands.rest_length.assign(
+      static_cast<std::size_t>(body.particles + band_group - 1) / band_group * strides * band_group, 0.0);
+  const auto agrees = [](double& shared, double own) {
+    if (shared < 0.0) shared = own;
+    return shared == own;
+  };
+  for (std::size_t e = 0; strides > 0 && e < local.ends.size(); ++e) {
+    const std::size_t i = static_cast<std::size_t>(local.ends[e].first);
+    const int s = local.spring[e], stride = local.ends[e].second - local.ends[e].first;
+    const std::size_t k = static_cast<std::size_t>(std::lower_bound(bands.stride.begin(), bands.stride.end(), stride) -
+                                                   bands.stride.begin());
+    bands.rest_length[(i / band_group * strides + k) * band_group + i % band_group] = structure.rest_length(s);
+    if (!agrees(bands.stiffness[k], structure.stiffness(s)) || !agrees(bands.damping[k], structure.damping(s)))
+      return {};
   }
   return bands;
 }
@@ -196,11 +199,11 @@ SpringPlan::SpringPlan(const Structure& structure) {
     }
     if (body.springs == 0) continue;
     const LocalSprings local = local_springs(structure, body);
-    std::vector<int> stride = common_strides(local.ends, body.particles);
-    if (!stride.empty())
-      bands.push_back(make_bands(structure, body, local, std::move(stride)));
-    else
+    SpringBands regular = make_bands(structure, body, local);
+    if (regular.stride.empty())
       slices.push_back(make_slices(structure, body, local));
+    else
+      bands.push_back(std::move(regular));
   }
 }
 

@@ -13,15 +13,15 @@ namespace billow::sim {
 constexpr int band_group = 8;
 
 /// Springs of a body numbered row by row, such as a grid's: every spring joins i and i + stride for one of a few
-/// strides. Spring k of particle i is at [(i / 8 * strides + k) * 8 + i % 8]; where there is none, its stiffness is 0.
+/// strides, and those of one stride are of one material. Spring k of particle i is at
+/// [(i / 8 * strides + k) * 8 + i % 8]; where there is none, its rest length is 0.
 struct SpringBands {
   int first_particle = 0, particles = 0;
-  std::vector<int> stride;  // ascending, > 0
   bool damped = false;
   DampingModel damping_model = DampingModel::projected;
-  AlignedVector<double> rest_length;  // [m]
-  AlignedVector<double> stiffness;    // [N/m]
-  AlignedVector<double> damping;      // [N s/m] empty where nothing is damped
+  std::vector<int> stride;                 //         ascending, > 0
+  std::vector<double> stiffness, damping;  // [N/m], [N s/m] of each stride
+  AlignedVector<double> rest_length;       // [m]
 };
 
 /// Springs of any other body, sorted by their first end and taken four at a time; particles are taken four at a time

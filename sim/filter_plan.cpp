@@ -1,0 +1,99 @@
+// Neighbours -> bands and slices.
+#include "sim/filter_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/spring_plan.h"
+#include "sim/strides.h"
+
+namespace billow::sim {
+
+namespace {
+
+constexpr int lanes = 4;
+constexpr int block_slices = 512;
+
+std::vector<std::pair<int, int>> upper_pairs(const Body& body, const NeighbourRows& neighbours) {
+  std::vector<std::pair<int, int>> pairs;
+  for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
+    for (int e = neighbours.first[static_cast<std::size_t>(i)]; e < neighbours.first[static_cast<std::size_t>(i) + 1];
+         ++e)
+      if (const int j = neighbours.column[static_cast<std::size_t>(e)]; j > i) pairs.emplace_back(i, j);
+  return pairs;
+}
+
+}  // namespace
+
+FilterPlan::FilterPlan(const Structure& structure, const NeighbourRows& neighbours)
+    : self_place_(static_cast<std::size_t>(structure.particles())), neighbour_place_(neighbours.column.size()) {
+  for (const Body& body : structure.body) {
+    const std::vector<int> stride = common_strides(upper_pairs(body, neighbours), body.particles);
+    if (stride.empty())
+      add_slices(body, neighbours);
+    else
+      add_bands(body, neighbours, stride);
+  }
+}
+
+void FilterPlan::add_bands(const Body& body, const NeighbourRows& neighbours, const std::vector<int>& stride) {
+  FilterBands added{body.first_particle, body.particles, {0}, places_};
+  for (const int s : stride) added.offset.push_back(s), added.offset.push_back(-s);
+  std::sort(added.offset.begin(), added.offset.end());
+  const std::size_t offsets = added.offset.size();
+  const auto place = [&](int i, int offset) {
+    const auto k = std::lower_bound(added.offset.begin(), added.offset.end(), offset) - added.offset.begin();
+    const std::size_t local = static_cast<std::size_t>(i - body.first_particle);
+    return places_ + (local / band_group * offsets + static_cast<std::size_t>(k)) * band_group + local % band_group;
+  };
+  for (int i = body.first_particle; i < body.first_particle + body.particles; ++i) {
+    self_place_[static_cast<std::size_t>(i)] = place(i, 0);
+    for (int e = neighbours.first[static_cast<std::size_t>(i)]; e < neighbours.first[static_cast<std::size_t>(i) + 1];
+         ++e)
+      neighbour_place_[static_cast<std::size_t>(e)] = place(i, neighbours.column[static_cast<std::size_t>(e)] - i);
+  }
+  places_ += static_cast<std::size_t>((body.particles + band_group - 1) / band_group) * band_group * offsets;
+  bands.push_back(std::move(added));
+}
+
+void FilterPlan::add_slices(const Body& body, const NeighbourRows& neighbours) {
+  FilterSlices added{body.first_particle, body.particles, {0}, {}, places_, {}};
+  const int count = (body.particles + lanes - 1) / lanes;
+  for (int t = 0; t < count; ++t) {
+    int longest = 0;
+    const int rows = std::min(lanes, body.particles - lanes * t);
+    const auto first = [&](int lane) {
+      return neighbours.first[static_cast<std::size_t>(body.first_particle + lanes * t + lane)];
+    };
+    for (int lane = 0; lane < rows; ++lane) longest = std::max(longest, first(lane + 1) - first(lane));
+    for (int k = -1; k < longest; ++k)  // the particle itself, then its neighbours
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int row = lanes * t + std::min(lane, rows - 1), e = lane < rows ? first(lane) + k : 0;
+        const bool real = lane < rows && k >= 0 && e < first(lane + 1);
+        added.column.push_back(real ? neighbours.column[static_cast<std::size_t>(e)] - body.first_particle : row);
+        if (real) neighbour_place_[static_cast<std::size_t>(e)] = places_;
+        if (lane < rows && k < 0) self_place_[static_cast<std::size_t>(body.first_particle + row)] = places_;
+        ++places_;
+      }
+    added.slice_begin.push_back(static_cast<int>(added.column.size()) / lanes);
+  }
+  places_ = (places_ + band_group - 1) / band_group * band_group;
+  for (int t = 0; t < count; t += block_slices) {
+    const int end = std::min(t + block_slices, count);
+    const auto column = added.column.begin();
+    const auto [low, high] = std::minmax_element(column + lanes * added.slice_begin[static_cast<std::size_t>(t)],
+                                                 column + lanes * added.slice_begin[static_cast<std::size_t>(end)]);
+    added.block.push_back({t, end, *low, *high + 1});
+  }
+  slices.push_back(std::move(added));
+}
+
+void FilterPlan::arrange(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour,
+                         AlignedVector<double>& weights) const {
+  weights.assign(places_, 0.0);
+  for (std::size_t i = 0; i < self_place_.size(); ++i) weights[self_place_[i]] = self(static_cast<Eigen::Index>(i));
+  for (std::size_t e = 0; e < neighbour_place_.size(); ++e)
+    weights[neighbour_place_[e]] = neighbour(static_cast<Eigen::Index>(e));
+}
+
+}  // namespace billow::sim

@@ -1,0 +1,58 @@
+// The filter's weights laid out for the vector pass: derived from its neighbours once.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "sim/aligned.h"
+#include "sim/structure.h"
+
+namespace billow::sim {
+
+/// Who is whose neighbour, in compressed rows: particle i's are column[first[i]] ... column[first[i + 1] - 1].
+struct NeighbourRows {
+  std::vector<int> first, column;
+};
+
+/// A body whose neighbours lie at a few constant distances: weight k of particle i, that of particle i + offset[k], is
+/// at begin + (i / 8 * offsets + k) * 8 + i % 8; 0 where there is no such neighbour.
+struct FilterBands {
+  int first_particle = 0, particles = 0;
+  std::vector<int> offset;  // ascending; 0, the particle itself, is one
+  std::size_t begin = 0;
+};
+
+/// Any other body, four particles at a time: weights and neighbours of the four side by side.
+struct FilterSlices {
+  int first_particle = 0, particles = 0;
+  std::vector<int> slice_begin;  // slice t's are places begin + 4 slice_begin[t] ... begin + 4 slice_begin[t + 1] - 1
+  std::vector<int> column;       // of each place, from the body's first particle
+  std::size_t begin = 0;
+  struct Block {
+    int first_slice = 0, last_slice = 0;  // [first, last)
+    int low = 0, high = 0;                // [low, high) particles that they read
+  };
+  std::vector<Block> block;
+};
+
+/// Where each weight of the compressed rows goes.
+class FilterPlan {
+ public:
+  FilterPlan() = default;
+  FilterPlan(const Structure& structure, const NeighbourRows& neighbours);
+
+  /// self (n) and neighbour (one per entry of the rows) -> the weights in the plan's order.
+  void arrange(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour, AlignedVector<double>& weights) const;
+
+  std::vector<FilterBands> bands;
+  std::vector<FilterSlices> slices;
+
+ private:
+  void add_bands(const Body& body, const NeighbourRows& neighbours, const std::vector<int>& stride);
+  void add_slices(const Body& body, const NeighbourRows& neighbours);
+
+  std::size_t places_ = 0;
+  std::vector<std::size_t> self_place_, neighbour_place_;
+};
+
+}  // namespace billow::sim
