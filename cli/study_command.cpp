@@ -36,14 +36,17 @@ struct Plan {
   RunResult result_of(const StudyRun& run) const { return read_result(folder_of(run), hash[run.number - 1]); }
 };
 
-// Reads every run's scene, so that a fault in the last one is found before the first one starts.
 Plan make_plan(const StudyOptions& options) {
   Plan plan{read_study(options.study), options.output, {}, {}};
   if (plan.folder.empty()) plan.folder = fs::path("out") / options.study.stem();
   plan.runs = runs_of(plan.study);
+  return plan;
+}
+
+// Reads every run's scene, so that a fault in the last one is found before the first one starts.
+void find_hashes(Plan& plan) {
   for (const StudyRun& run : plan.runs)
     plan.hash.push_back(run_hash(plan.study, read_scene(plan.study.scene, overrides_of(plan.study, run))));
-  return plan;
 }
 
 bool is_finished(const RunResult& result) {
@@ -69,7 +72,7 @@ void check_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, error))
     throw OutputError(fmt::format("{} is not a folder; choose another with -o", folder.string()));
   const bool empty = fs::directory_iterator(folder, error) == fs::directory_iterator();
-  if (!empty && !fs::exists(folder / "study.json", error))
+  if (!empty && !fs::exists(folder / "study.json", error) && !fs::is_directory(folder / "runs", error))
     throw OutputError(
         fmt::format("{} already holds files that are not a study's; choose another folder with -o", folder.string()));
 }
@@ -88,6 +91,8 @@ int list_runs(const Plan& plan) {
 
 int do_one(const Plan& plan, int number) {
   const StudyRun& run = run_numbered(plan, number);
+  check_folder(plan.folder);
+  catch_interrupts();
   make_folder(plan.folder_of(run));
   const RunResult result = perform_run(plan.study, run, plan.folder_of(run));
   if (interrupted_by() != 0) return 128 + interrupted_by();
@@ -148,28 +153,32 @@ void run_missing(const Plan& plan, const StudyOptions& options) {
 
 int assemble(const Plan& plan) {
   const std::vector<RunResult> results = results_of(plan);
-  const StudyContents contents{plan.study, plan.folder, plan.runs, results};
-  make_pictures(contents);
+  StudyContents contents{plan.study, plan.folder, plan.runs, results, {}};
+  contents.faults = make_pictures(contents);
+  for (const auto& [picture, fault] : contents.faults)
+    fmt::print(stderr, "warning: the picture '{}' is missing: {}\n", picture, fault);
   render::write_file_atomically(plan.folder / "results.csv", results_csv(plan.study, plan.runs, results));
   render::write_file_atomically(plan.folder / "study.json", study_json(plan.study, plan.runs, results));
   render::write_file_atomically(plan.folder / "index.html", study_page(contents));
   const auto failed = std::count_if(results.begin(), results.end(), [](const RunResult& r) {
     return r.status == RunStatus::failed || r.status == RunStatus::missing;
   });
-  fmt::print(stderr, "wrote {} pictures, results.csv, study.json and index.html to {}{}\n", plan.study.pictures.size(),
-             plan.folder.string(), failed ? fmt::format("; {} runs are missing or failed", failed) : "");
-  return failed ? exit_internal_fault : exit_done;
+  fmt::print(stderr, "wrote {} pictures, results.csv, study.json and index.html to {}{}\n",
+             plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
+             failed ? fmt::format("; {} runs are missing or failed", failed) : "");
+  return failed || !contents.faults.empty() ? exit_internal_fault : exit_done;
 }
 
 }  // namespace
 
 int study_command(const StudyOptions& options) {
-  const Plan plan = make_plan(options);
+  Plan plan = make_plan(options);
+  if (options.only) return do_one(plan, *options.only);
+  find_hashes(plan);
   if (options.list) return list_runs(plan);
   check_folder(plan.folder);
   catch_interrupts();
   make_folder(plan.folder);
-  if (options.only) return do_one(plan, *options.only);
   if (!options.collect) {
     // Marks the folder as a study's, should this be cut short.
     render::write_file_atomically(plan.folder / "study.json", study_json(plan.study, plan.runs, results_of(plan)));

@@ -124,7 +124,12 @@ std::string study_page(const StudyContents& contents) {
   std::string body = fmt::format("<header><h1>{}</h1>\n<p class=\"summary\">{}</p></header>\n",
                                  html_escape(study.title), html_escape(study.about));
   body += shortfalls(contents);
-  for (std::size_t p = 0; p < study.pictures.size(); ++p) body += figure(study.pictures[p], p == 0);
+  for (std::size_t p = 0; p < study.pictures.size(); ++p) {
+    const auto fault = contents.faults.find(study.pictures[p].name);
+    body += fault == contents.faults.end() ? figure(study.pictures[p], p == 0)
+                                           : fmt::format("<p class=\"note bad\">{}: {}</p>\n",
+                                                         html_escape(fault->first), html_escape(fault->second));
+  }
   body += runs_table(contents) + commands(contents);
   return html_page(study.title, body);
 }

@@ -97,9 +97,7 @@ std::string lettered(std::size_t index, const std::string& label) {
   return fmt::format("({}) {}", static_cast<char>('a' + index % 26), label);
 }
 
-[[noreturn]] void fail_for(const PictureSpec& picture, const std::string& reason) {
-  throw InputError(fmt::format("the picture '{}' {}", picture.name, reason));
-}
+[[noreturn]] void fail_for(const std::string& reason) { throw InputError(fmt::format("it {}", reason)); }
 
 // A strip ends with its scene, or where the run diverged.
 double strip_duration(const Shown& run) {
@@ -114,7 +112,7 @@ render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& pi
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const fs::path file = runs[r].film / "velocity_strip.png";
     std::error_code error;
-    if (!fs::exists(file, error)) fail_for(picture, "needs a strip; give the scene one with 'strip: {}'");
+    if (!fs::exists(file, error)) fail_for("needs a strip; give the scene one with 'strip: {}'");
     const double share = strip_duration(runs[r]) / duration;
     const int width = std::max(1, static_cast<int>(std::lround(share * strip_width)));
     sheet.rows.push_back(
@@ -140,7 +138,7 @@ render::Sheet spectra_sheet(const std::vector<Shown>& runs, const PictureSpec& p
   for (const Shown& run : runs) {
     std::error_code error;
     if (!fs::exists(run.film / "velocity_spectrum.png", error))
-      fail_for(picture, "needs a spectrum; give the scene one with 'spectrum: {}'");
+      fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
     sheet.columns.push_back(run.label);
     above.panels.push_back(
         {render::read_png(run.film / "velocity_image.png"), spectrum_side, spectrum_side, false, ""});
@@ -255,9 +253,9 @@ render::Plot value_plot(const StudyContents& contents, const PictureSpec& pictur
 }
 
 // The rows of a run's spectrum.csv, after its heading.
-std::vector<std::pair<double, double>> spectrum_of_run(const Shown& run, const PictureSpec& picture) {
+std::vector<std::pair<double, double>> spectrum_of_run(const Shown& run) {
   std::ifstream file(run.film / "spectrum.csv");
-  if (!file) fail_for(picture, "needs a spectrum; give the scene one with 'spectrum: {}'");
+  if (!file) fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
   std::vector<std::pair<double, double>> points;
   std::string line;
   std::getline(file, line);
@@ -272,7 +270,7 @@ render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& pic
   Curves curves;
   for (const Shown& run : rendered_runs(contents, picture)) {
     const std::string by = by_label(contents.study, picture, *run.run);
-    for (const auto& [frequency, power] : spectrum_of_run(run, picture))
+    for (const auto& [frequency, power] : spectrum_of_run(run))
       curves.add(by.empty() ? "the scene" : by, frequency, power);
   }
   return {picture.title,
@@ -292,7 +290,7 @@ double longest(const std::vector<Shown>& runs) {
 
 render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture) {
   const std::vector<Shown> runs = rendered_runs(contents, picture);
-  if (runs.empty()) fail_for(picture, "has no finished run to show");
+  if (runs.empty()) fail_for("has no finished run to show");
   switch (picture.kind) {
     case PictureKind::strips:
       return strips_sheet(runs, picture, longest(runs));
@@ -303,18 +301,28 @@ render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture
   }
 }
 
+void make_picture(const StudyContents& contents, const PictureSpec& picture) {
+  const fs::path stem = contents.folder / picture.name;
+  if (picture.kind == PictureKind::plot)
+    render::write_plot(value_plot(contents, picture), stem);
+  else if (picture.kind == PictureKind::spectrum_curves)
+    render::write_plot(spectrum_plot(contents, picture), stem);
+  else
+    render::write_png(fs::path(stem.string() + ".png"), draw_sheet(sheet_of(contents, picture)));
+}
+
 }  // namespace
 
-void make_pictures(const StudyContents& contents) {
+std::map<std::string, std::string> make_pictures(const StudyContents& contents) {
+  std::map<std::string, std::string> faults;
   for (const PictureSpec& picture : contents.study.pictures) {
-    const fs::path stem = contents.folder / picture.name;
-    if (picture.kind == PictureKind::plot)
-      render::write_plot(value_plot(contents, picture), stem);
-    else if (picture.kind == PictureKind::spectrum_curves)
-      render::write_plot(spectrum_plot(contents, picture), stem);
-    else
-      render::write_png(fs::path(stem.string() + ".png"), draw_sheet(sheet_of(contents, picture)));
+    try {
+      make_picture(contents, picture);
+    } catch (const std::runtime_error& error) {
+      faults[picture.name] = error.what();
+    }
   }
+  return faults;
 }
 
 }  // namespace billow::cli

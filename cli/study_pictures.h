@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "cli/study.h"
@@ -15,10 +17,11 @@ struct StudyContents {
   const std::filesystem::path& folder;
   const std::vector<StudyRun>& runs;
   const std::vector<RunResult>& results;
+  std::map<std::string, std::string> faults;  // pictures that could not be made, and why
 };
 
-/// Writes NAME.png of every picture, and NAME.svg and NAME.csv of plots. Runs without a result leave a gap. Throws
-/// OutputError, and InputError when a picture finds no run to show.
-void make_pictures(const StudyContents& contents);
+/// Writes NAME.png of every picture, and NAME.svg and NAME.csv of plots. Runs without a result leave a gap. A picture
+/// that cannot be made stops no other: returns the names of those, and why.
+std::map<std::string, std::string> make_pictures(const StudyContents& contents);
 
 }  // namespace billow::cli

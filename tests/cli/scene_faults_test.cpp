@@ -246,7 +246,7 @@ TEST(SceneFaults, Bodies) {
       {"{corner: top_left}", "{vertices: 3}", "scene.yaml:11:25: vertices must be a list, not '3'"},
       {"{corner: top_left}", "{vertices: []}", "scene.yaml:11:25: the list of vertices is empty; name at least one"},
       {"{corner: top_left}", "{vertices: [0, 1, 2, 3, 4, 5, 6, 7, 8]}",
-       "scene.yaml:11:13: the pins hold every vertex, so nothing of the cloth can move"},
+       "scene.yaml:11:13: the pins hold every vertex, so nothing of the body can move"},
       {"{corner: top_left}", "{box: [[0, 0, 0]]}",
        "scene.yaml:11:20: box must be a list of two corners [[x, y, z], [x, y, z]]"},
       {"{corner: top_left}", "{box: [[0, 0, 0], [1, -1, 1]]}",

@@ -83,9 +83,9 @@ TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error("kind: plot", "kind: pie"),
             "study.yaml:15:26: unknown kind 'pie'; known are: strips, spectra, frames, plot, spectrum_curves");
   EXPECT_EQ(error("x: lambda", "x: lamda"), "study.yaml:15:35: there is no column 'lamda'; did you mean 'lambda'?");
-  EXPECT_EQ(error("by: [solver]", "by: [solvr]"), "study.yaml:15:74: there is no axis 'solvr'; did you mean 'solver'?");
+  EXPECT_EQ(error("by: [solver]", "by: [solvr]"), "study.yaml:15:72: there is no axis 'solvr'; did you mean 'solver'?");
   EXPECT_EQ(error("where: {lambda: [0.5, 2]}", "where: {lambda: 3}"),
-            "study.yaml:15:99: the axis 'lambda' has no value '3'; it has: 0.5, 1, 2");
+            "study.yaml:15:97: the axis 'lambda' has no value '3'; it has: 0.5, 1, 2");
   EXPECT_EQ(error("[0.5, 1, 2]", "[0.5, 1, 0.5]"),
             "study.yaml:8:22: a second value '0.5' of the axis 'lambda'; the first is at " +
                 (folder_.path() / "study.yaml:8:14").string());
@@ -100,7 +100,7 @@ TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
 TEST_F(StudyReader, PlacesFaultsOfARunInTheStudy) {
   const cli::Study study = read(test::edited(base_study, "solver.method: imex", "solver.method: imx"));
   const std::string message = test::scene_error(study.scene, cli::overrides_of(study, cli::runs_of(study)[1]));
-  EXPECT_EQ(message, "study.yaml:12:49: unknown method 'imx'; did you mean 'imex'?");
+  EXPECT_EQ(message, "study.yaml:12:48: unknown method 'imx'; did you mean 'imex'?");
 }
 
 }  // namespace
