@@ -3,7 +3,6 @@
 #include "sim/filter_pass.h"
 
 #include <algorithm>
-#include <array>
 
 #include "sim/spring_plan.h"
 
@@ -21,7 +20,6 @@ namespace billow::sim::HWY_NAMESPACE {
 // Four lanes at most: a vector of eight, loaded at any particle, always straddles two cache lines.
 using Band = hn::CappedTag<double, 4>;
 constexpr int band_lanes = static_cast<int>(hn::MaxLanes(Band()));
-constexpr int band_vectors = band_group / band_lanes;
 
 /// Columns over some of the particles: entry i is particle i of the body.
 struct FieldSegment {
@@ -29,26 +27,29 @@ struct FieldSegment {
   double* out[3];
 };
 
+// Two vectors of particles from i on. Named sums stay in registers.
+HWY_INLINE void filter_pair(const FilterBands& bands, const double* weight, const FieldSegment& field, int i) {
+  const Band d;
+  hn::Vec<Band> x0 = hn::Zero(d), x1 = x0, y0 = x0, y1 = x0, z0 = x0, z1 = x0;
+  const double *const x = field.in[0] + i, *const y = field.in[1] + i, *const z = field.in[2] + i;
+  for (const int offset : bands.offset) {
+    const auto w0 = hn::Load(d, weight), w1 = hn::Load(d, weight + band_lanes);
+    const std::ptrdiff_t j0 = offset, j1 = j0 + band_lanes;
+    x0 = hn::Add(x0, hn::Mul(w0, hn::LoadU(d, x + j0))), x1 = hn::Add(x1, hn::Mul(w1, hn::LoadU(d, x + j1)));
+    y0 = hn::Add(y0, hn::Mul(w0, hn::LoadU(d, y + j0))), y1 = hn::Add(y1, hn::Mul(w1, hn::LoadU(d, y + j1)));
+    z0 = hn::Add(z0, hn::Mul(w0, hn::LoadU(d, z + j0))), z1 = hn::Add(z1, hn::Mul(w1, hn::LoadU(d, z + j1)));
+    weight += band_group;
+  }
+  hn::StoreU(x0, d, field.out[0] + i), hn::StoreU(x1, d, field.out[0] + i + band_lanes);
+  hn::StoreU(y0, d, field.out[1] + i), hn::StoreU(y1, d, field.out[1] + i + band_lanes);
+  hn::StoreU(z0, d, field.out[2] + i), hn::StoreU(z1, d, field.out[2] + i + band_lanes);
+}
+
 // Whole groups from `begin` to `end`.
 void filter_groups(const FilterBands& bands, const double* weights, const FieldSegment& field, int begin, int end) {
-  const Band d;
-  const std::size_t offsets = bands.offset.size();
-  for (int i = begin; i < end; i += band_group) {
-    const double* weight = weights + static_cast<std::size_t>(i) * offsets;
-    hn::Vec<Band> sum[3][band_vectors];
-    for (auto& axis : sum)
-      for (auto& vector : axis) vector = hn::Zero(d);
-    for (std::size_t k = 0; k < offsets; ++k, weight += band_group) {
-      const std::ptrdiff_t j = std::ptrdiff_t{i} + bands.offset[k];
-      for (int v = 0; v < band_vectors; ++v) {
-        const auto w = hn::Load(d, weight + v * band_lanes);
-        for (int axis = 0; axis < 3; ++axis)
-          sum[axis][v] = hn::Add(sum[axis][v], hn::Mul(w, hn::LoadU(d, field.in[axis] + j + v * band_lanes)));
-      }
-    }
-    for (int axis = 0; axis < 3; ++axis)
-      for (int v = 0; v < band_vectors; ++v) hn::StoreU(sum[axis][v], d, field.out[axis] + i + v * band_lanes);
-  }
+  for (int i = begin; i < end; i += band_group)
+    for (int k = 0; k < band_group; k += 2 * band_lanes)
+      filter_pair(bands, weights + static_cast<std::size_t>(i) * bands.offset.size() + k, field, i + k);
 }
 
 /// Room that a thread keeps from pass to pass.
@@ -105,11 +106,13 @@ using SliceSums = Vector3<QV>;
 HWY_INLINE void filter_slice(const double* weight, const int* column, const int* end, const double* rows,
                              SliceSums& sums) {
   const Quad d;
-  std::array<QV, 4> sum = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  QV a = hn::Zero(d), b = a, c = a, e = a;
+  const auto term = [&](int k) HWY_ATTR {
+    return hn::Mul(hn::Set(d, weight[k]), hn::Load(d, rows + 4 * std::ptrdiff_t{column[k]}));
+  };
   for (; column != end; column += 4, weight += 4)
-    for (int k = 0; k < 4; ++k)
-      sum[k] = hn::Add(sum[k], hn::Mul(hn::Set(d, weight[k]), hn::Load(d, rows + 4 * std::ptrdiff_t{column[k]})));
-  sums = transposed(sum);
+    a = hn::Add(a, term(0)), b = hn::Add(b, term(1)), c = hn::Add(c, term(2)), e = hn::Add(e, term(3));
+  sums = transposed({a, b, c, e});
 }
 
 HWY_INLINE void store_slice(const SliceSums& sums, double* x, double* y, double* z) {
@@ -143,21 +146,23 @@ void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weig
   const FieldSegment whole = segment_of(columns, slices.first_particle);
   const FilterSlices::Block& run = slices.block[static_cast<std::size_t>(block)];
   AlignedVector<double>& memory = room(4 * static_cast<std::size_t>(run.high - run.low));
-  rows_of(whole.in, run.low, run.high, memory.data());
+  ordered_rows_of(whole.in, slices.order, run.low, run.high, memory.data());
   const double* rows = memory.data() - 4 * std::ptrdiff_t{run.low};
   for (int t = run.first_slice; t < run.last_slice; ++t) {
     const int* column = slices.column.data() + 4 * std::ptrdiff_t{slices.slice_begin[static_cast<std::size_t>(t)]};
     const int* end = slices.column.data() + 4 * std::ptrdiff_t{slices.slice_begin[static_cast<std::size_t>(t) + 1]};
     SliceSums sums;
     filter_slice(weights.data() + slices.begin + (column - slices.column.data()), column, end, rows, sums);
-    if (4 * t + 4 <= slices.particles) {
+    if (4 * t + 4 <= slices.particles && slices.order.empty()) {
       store_slice(sums, whole.out[0] + 4 * t, whole.out[1] + 4 * t, whole.out[2] + 4 * t);
       continue;
     }
     double last[3][4];
     store_slice(sums, last[0], last[1], last[2]);
-    for (int axis = 0; axis < 3; ++axis)
-      std::copy(last[axis], last[axis] + (slices.particles - 4 * t), whole.out[axis] + 4 * t);
+    for (int k = 0; k < 4 && 4 * t + k < slices.particles; ++k) {
+      const int i = slices.order.empty() ? 4 * t + k : slices.order[static_cast<std::size_t>(4 * t + k)];
+      for (int axis = 0; axis < 3; ++axis) whole.out[axis][i] = last[axis][k];
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/locality.h"
 #include "sim/spring_plan.h"
 #include "sim/strides.h"
 
@@ -19,7 +20,8 @@ std::vector<std::pair<int, int>> upper_pairs(const Body& body, const NeighbourRo
   for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
     for (int e = neighbours.first[static_cast<std::size_t>(i)]; e < neighbours.first[static_cast<std::size_t>(i) + 1];
          ++e)
-      if (const int j = neighbours.column[static_cast<std::size_t>(e)]; j > i) pairs.emplace_back(i, j);
+      if (const int j = neighbours.column[static_cast<std::size_t>(e)]; j > i)
+        pairs.emplace_back(i - body.first_particle, j - body.first_particle);
   return pairs;
 }
 
@@ -28,9 +30,10 @@ std::vector<std::pair<int, int>> upper_pairs(const Body& body, const NeighbourRo
 FilterPlan::FilterPlan(const Structure& structure, const NeighbourRows& neighbours)
     : self_place_(static_cast<std::size_t>(structure.particles())), neighbour_place_(neighbours.column.size()) {
   for (const Body& body : structure.body) {
-    const std::vector<int> stride = common_strides(upper_pairs(body, neighbours), body.particles);
+    const std::vector<std::pair<int, int>> pairs = upper_pairs(body, neighbours);
+    const std::vector<int> stride = common_strides(pairs, body.particles);
     if (stride.empty())
-      add_slices(body, neighbours);
+      add_slices(body, neighbours, local_order(pairs, body.particles));
     else
       add_bands(body, neighbours, stride);
   }
@@ -56,24 +59,36 @@ void FilterPlan::add_bands(const Body& body, const NeighbourRows& neighbours, co
   bands.push_back(std::move(added));
 }
 
-void FilterPlan::add_slices(const Body& body, const NeighbourRows& neighbours) {
-  FilterSlices added{body.first_particle, body.particles, {0}, {}, places_, {}};
+void FilterPlan::add_slices(const Body& body, const NeighbourRows& neighbours, std::vector<int> order) {
+  FilterSlices added;
+  added.first_particle = body.first_particle;
+  added.particles = body.particles;
+  added.begin = places_;
+  added.slice_begin = {0};
+  added.order = std::move(order);
+  const std::vector<int> rank = ranks(added.order);
+  const auto particle = [&](int row) {
+    return body.first_particle + (added.order.empty() ? row : added.order[static_cast<std::size_t>(row)]);
+  };
+  const auto row_of = [&](int i) {
+    return rank.empty() ? i - body.first_particle : rank[static_cast<std::size_t>(i - body.first_particle)];
+  };
+  const auto first = [&](int i) { return neighbours.first[static_cast<std::size_t>(i)]; };
   const int count = (body.particles + lanes - 1) / lanes;
   for (int t = 0; t < count; ++t) {
-    int longest = 0;
     const int rows = std::min(lanes, body.particles - lanes * t);
-    const auto first = [&](int lane) {
-      return neighbours.first[static_cast<std::size_t>(body.first_particle + lanes * t + lane)];
-    };
-    for (int lane = 0; lane < rows; ++lane) longest = std::max(longest, first(lane + 1) - first(lane));
+    int longest = 0;
+    for (int lane = 0; lane < rows; ++lane) {
+      const int i = particle(lanes * t + lane);
+      longest = std::max(longest, first(i + 1) - first(i));
+    }
     for (int k = -1; k < longest; ++k)  // the particle itself, then its neighbours
-      for (int lane = 0; lane < lanes; ++lane) {
-        const int row = lanes * t + std::min(lane, rows - 1), e = lane < rows ? first(lane) + k : 0;
-        const bool real = lane < rows && k >= 0 && e < first(lane + 1);
-        added.column.push_back(real ? neighbours.column[static_cast<std::size_t>(e)] - body.first_particle : row);
+      for (int lane = 0; lane < lanes; ++lane, ++places_) {
+        const int row = lanes * t + std::min(lane, rows - 1), i = particle(row), e = first(i) + k;
+        const bool real = lane < rows && k >= 0 && e < first(i + 1);
+        added.column.push_back(real ? row_of(neighbours.column[static_cast<std::size_t>(e)]) : row);
         if (real) neighbour_place_[static_cast<std::size_t>(e)] = places_;
-        if (lane < rows && k < 0) self_place_[static_cast<std::size_t>(body.first_particle + row)] = places_;
-        ++places_;
+        if (lane < rows && k < 0) self_place_[static_cast<std::size_t>(i)] = places_;
       }
     added.slice_begin.push_back(static_cast<int>(added.column.size()) / lanes);
   }

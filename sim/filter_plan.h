@@ -26,7 +26,8 @@ struct FilterBands {
 struct FilterSlices {
   int first_particle = 0, particles = 0;
   std::vector<int> slice_begin;  // slice t's are places begin + 4 slice_begin[t] ... begin + 4 slice_begin[t + 1] - 1
-  std::vector<int> column;       // of each place, from the body's first particle
+  std::vector<int> order;        // the body's particles as the slices take them; empty: as they are
+  std::vector<int> column;       // of each place, as a place in that order
   std::size_t begin = 0;
   struct Block {
     int first_slice = 0, last_slice = 0;  // [first, last)
@@ -49,7 +50,7 @@ class FilterPlan {
 
  private:
   void add_bands(const Body& body, const NeighbourRows& neighbours, const std::vector<int>& stride);
-  void add_slices(const Body& body, const NeighbourRows& neighbours);
+  void add_slices(const Body& body, const NeighbourRows& neighbours, std::vector<int> order);
 
   std::size_t places_ = 0;
   std::vector<std::size_t> self_place_, neighbour_place_;

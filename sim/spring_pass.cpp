@@ -22,11 +22,13 @@ namespace billow::sim::HWY_NAMESPACE {
 enum class SpringDamping { none, projected, relative };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vector3<V> difference(D d, const double* const to[3], const double* const from[3], std::ptrdiff_t j,
-                                 std::ptrdiff_t i) {
-  return {hn::Sub(hn::LoadU(d, to[0] + j), hn::LoadU(d, from[0] + i)),
-          hn::Sub(hn::LoadU(d, to[1] + j), hn::LoadU(d, from[1] + i)),
-          hn::Sub(hn::LoadU(d, to[2] + j), hn::LoadU(d, from[2] + i))};
+HWY_INLINE Vector3<V> load(D d, const double* const column[3], std::ptrdiff_t i) {
+  return {hn::LoadU(d, column[0] + i), hn::LoadU(d, column[1] + i), hn::LoadU(d, column[2] + i)};
+}
+
+template <class V>
+HWY_INLINE Vector3<V> operator-(const Vector3<V>& a, const Vector3<V>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
 template <class V>
@@ -131,14 +133,18 @@ class BandSweep {
     const std::ptrdiff_t lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));
     const double* rest =
         rest_length_ + static_cast<std::ptrdiff_t>(i / band_group) * strides_ * band_group + i % band_group;
+    const double* const position[3] = {segment.position[0], segment.position[1], segment.position[2]};
+    const Vector3<V> own_position = load(d, position, i);
+    Vector3<V> own_velocity;
+    if constexpr (damping != SpringDamping::none) own_velocity = load(d, segment.velocity, i);
     V sum_x = hn::Zero(d), sum_y = sum_x, sum_z = sum_x;
     for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring, rest += band_group) {
-      const Vector3<V> along = difference(d, segment.position, segment.position, i + ring->stride, i);
+      const Vector3<V> along = load(d, position, i + ring->stride) - own_position;
       const V square = dot(along, along), rest_length = hn::Load(d, rest);
       V scale = elastic_scale(d, square, rest_length, hn::Set(d, ring->stiffness));
       Vector3<V> relative;
       if constexpr (damping != SpringDamping::none)
-        relative = difference(d, segment.velocity, segment.velocity, i + ring->stride, i);
+        relative = load(d, segment.velocity, i + ring->stride) - own_velocity;
       const V coefficient = hn::Set(d, ring->damping);
       if constexpr (damping == SpringDamping::projected)
         scale = hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, coefficient));
@@ -310,6 +316,15 @@ struct SliceRows {
   double* ring;                       // 4 doubles a spring
 };
 
+// The sums of a slice's particles to where they belong, one by one.
+inline void add_one_by_one(const SpringSlices& slices, int slice, const double sum[3][4], double* const force[3]) {
+  for (int k = 0; k < 4 && 4 * slice + k < slices.particles; ++k) {
+    const std::size_t row = static_cast<std::size_t>(4 * slice + k);
+    const int i = slices.order.empty() ? 4 * slice + k : slices.order[row];
+    for (int axis = 0; axis < 3; ++axis) force[axis][i] += sum[axis][k];
+  }
+}
+
 #if HWY_MAX_BYTES >= 32
 
 /// One value of four in all lanes.
@@ -330,14 +345,14 @@ HWY_INLINE void quad_forces(const SpringSlices& slices, const SliceRows& rows, i
     return hn::Sub(hn::Load(d, row + 4 * std::ptrdiff_t{second[k]}), hn::Load(d, row + 4 * std::ptrdiff_t{first[k]}));
   };
   const auto quads = [&](const double* row) HWY_ATTR {
-    return std::array<QV, 4>{between(row, 0), between(row, 1), between(row, 2), between(row, 3)};
+    return Rows{between(row, 0), between(row, 1), between(row, 2), between(row, 3)};
   };
-  const std::array<QV, 4> along = quads(rows.position);
+  const Rows along = quads(rows.position);
   const Vector3<QV> along_axes = transposed(along);
   const QV square = dot(along_axes, along_axes);
   const QV rest_length = hn::Load(d, slices.rest_length.data() + at);
   QV scale = elastic_scale(d, square, rest_length, hn::Load(d, slices.stiffness.data() + at));
-  std::array<QV, 4> velocity;
+  Rows velocity;
   QV coefficient;
   if constexpr (damping != SpringDamping::none) {
     velocity = quads(rows.velocity);
@@ -346,14 +361,15 @@ HWY_INLINE void quad_forces(const SpringSlices& slices, const SliceRows& rows, i
   if constexpr (damping == SpringDamping::projected)
     scale = hn::Add(scale, damping_scale(d, square, dot(along_axes, transposed(velocity)), rest_length, coefficient));
   double* out = rows.ring + (at & (slices.ring - 1)) * 4;
-  const auto store = [&]<int k>() HWY_ATTR {
-    QV force = hn::Mul(broadcast<k>(scale), along[k]);
-    if constexpr (damping == SpringDamping::relative)
-      force = hn::Add(force, hn::Mul(broadcast<k>(coefficient), velocity[k]));
-    hn::Store(force, d, out + 4 * k);
-  };
-  store.template operator()<0>(), store.template operator()<1>();
-  store.template operator()<2>(), store.template operator()<3>();
+  Rows force{hn::Mul(broadcast<0>(scale), along.a), hn::Mul(broadcast<1>(scale), along.b),
+             hn::Mul(broadcast<2>(scale), along.c), hn::Mul(broadcast<3>(scale), along.e)};
+  if constexpr (damping == SpringDamping::relative)
+    force = {hn::Add(force.a, hn::Mul(broadcast<0>(coefficient), velocity.a)),
+             hn::Add(force.b, hn::Mul(broadcast<1>(coefficient), velocity.b)),
+             hn::Add(force.c, hn::Mul(broadcast<2>(coefficient), velocity.c)),
+             hn::Add(force.e, hn::Mul(broadcast<3>(coefficient), velocity.e))};
+  hn::Store(force.a, d, out), hn::Store(force.b, d, out + 4);
+  hn::Store(force.c, d, out + 8), hn::Store(force.e, d, out + 12);
 }
 
 // The sums of four particles, added to their places.
@@ -362,14 +378,15 @@ HWY_INLINE void sum_slice(const SpringSlices& slices, const double* ring, int sl
   const std::uint32_t* entry = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice)];
   const std::uint32_t* end = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice) + 1];
   const std::uint32_t* plus_end = entry + 4 * slices.plus[static_cast<std::size_t>(slice)];
-  std::array<QV, 4> sum = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  QV a = hn::Zero(d), b = a, c = a, e = a;
+  const auto waiting = [&](int k) HWY_ATTR { return hn::Load(d, ring + entry[k]); };
   for (; entry != plus_end; entry += 4)
-    for (int k = 0; k < 4; ++k) sum[k] = hn::Add(sum[k], hn::Load(d, ring + entry[k]));
+    a = hn::Add(a, waiting(0)), b = hn::Add(b, waiting(1)), c = hn::Add(c, waiting(2)), e = hn::Add(e, waiting(3));
   for (; entry != end; entry += 4)
-    for (int k = 0; k < 4; ++k) sum[k] = hn::Sub(sum[k], hn::Load(d, ring + entry[k]));
-  const Vector3<QV> axes = transposed(sum);
+    a = hn::Sub(a, waiting(0)), b = hn::Sub(b, waiting(1)), c = hn::Sub(c, waiting(2)), e = hn::Sub(e, waiting(3));
+  const Vector3<QV> axes = transposed({a, b, c, e});
   const std::ptrdiff_t i = 4 * std::ptrdiff_t{slice};
-  if (i + 4 <= slices.particles) {
+  if (i + 4 <= slices.particles && slices.order.empty()) {
     hn::StoreU(hn::Add(hn::LoadU(d, force[0] + i), axes.x), d, force[0] + i);
     hn::StoreU(hn::Add(hn::LoadU(d, force[1] + i), axes.y), d, force[1] + i);
     hn::StoreU(hn::Add(hn::LoadU(d, force[2] + i), axes.z), d, force[2] + i);
@@ -377,8 +394,7 @@ HWY_INLINE void sum_slice(const SpringSlices& slices, const double* ring, int sl
   }
   HWY_ALIGN double last[3][4];
   hn::Store(axes.x, d, last[0]), hn::Store(axes.y, d, last[1]), hn::Store(axes.z, d, last[2]);
-  for (std::ptrdiff_t k = 0; i + k < slices.particles; ++k)
-    for (int axis = 0; axis < 3; ++axis) force[axis][i + k] += last[axis][k];
+  add_one_by_one(slices, slice, last, force);
 }
 
 #else  // two doubles to a vector: plain arithmetic is as fast, and has the same bits
@@ -412,13 +428,12 @@ void sum_slice(const SpringSlices& slices, const double* ring, int slice, double
   const std::uint32_t* entry = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice)];
   const std::uint32_t* end = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice) + 1];
   const std::uint32_t* plus_end = entry + 4 * slices.plus[static_cast<std::size_t>(slice)];
-  double sum[4][3] = {};
+  double sum[3][4] = {};
   for (; entry != end; entry += 4)
     for (int k = 0; k < 4; ++k)
       for (int axis = 0; axis < 3; ++axis)
-        sum[k][axis] += entry < plus_end ? ring[entry[k] + axis] : -ring[entry[k] + axis];
-  for (int k = 0; k < 4 && 4 * slice + k < slices.particles; ++k)
-    for (int axis = 0; axis < 3; ++axis) force[axis][4 * slice + k] += sum[k][axis];
+        sum[axis][k] += entry < plus_end ? ring[entry[k] + axis] : -ring[entry[k] + axis];
+  add_one_by_one(slices, slice, sum, force);
 }
 
 #endif
@@ -428,7 +443,7 @@ void sweep_slices(const SpringSlices& slices, const Segment& whole, const Spring
   Scratch& memory = scratch();
   const auto block_rows = [&](const double* const column[3], AlignedVector<double>& rows) {
     rows.resize(4 * static_cast<std::size_t>(block.high - block.low));
-    rows_of(column, block.low, block.high, rows.data());
+    ordered_rows_of(column, slices.order, block.low, block.high, rows.data());
     return rows.data() - 4 * std::ptrdiff_t{block.low};
   };
   memory.ring.resize(4 * static_cast<std::size_t>(slices.ring + 1));

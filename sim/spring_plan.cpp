@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
+#include "sim/locality.h"
 #include "sim/strides.h"
 
 namespace billow::sim {
@@ -158,8 +161,25 @@ int slices_per_block(const SpringSlices& slices) {
   return std::max(block_slices, 4 * reach / lanes);
 }
 
-SpringSlices make_slices(const Structure& structure, const Body& body, const LocalSprings& local) {
+// Ends as places in `order`.
+LocalSprings renumbered(LocalSprings local, const std::vector<int>& order) {
+  if (order.empty()) return local;
+  const std::vector<int> rank = ranks(order);
+  std::vector<std::pair<std::pair<int, int>, int>> keyed;
+  for (std::size_t e = 0; e < local.ends.size(); ++e) {
+    const int i = rank[static_cast<std::size_t>(local.ends[e].first)];
+    const int j = rank[static_cast<std::size_t>(local.ends[e].second)];
+    keyed.emplace_back(std::minmax(i, j), local.spring[e]);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  for (std::size_t e = 0; e < keyed.size(); ++e) std::tie(local.ends[e], local.spring[e]) = keyed[e];
+  return local;
+}
+
+SpringSlices make_slices(const Structure& structure, const Body& body, const LocalSprings& as_built) {
   SpringSlices slices;
+  slices.order = local_order(as_built.ends, body.particles);
+  const LocalSprings local = renumbered(as_built, slices.order);
   slices.first_particle = body.first_particle;
   slices.particles = body.particles;
   slices.damped = is_damped(structure, body);

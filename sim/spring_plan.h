@@ -26,12 +26,14 @@ struct SpringBands {
 
 /// Springs of any other body, sorted by their first end and taken four at a time; particles are taken four at a time
 /// too, a slice. A slice adds the forces of the springs that start in it and subtracts those of the springs that end in
-/// it. Springs' forces wait for that in a ring, each at its number modulo the ring's size.
+/// it, both being numbered by their place in `order`. Springs' forces wait for that in a ring, each at its number
+/// modulo the ring's size.
 struct SpringSlices {
   int first_particle = 0, particles = 0;
   bool damped = false;
   DampingModel damping_model = DampingModel::projected;
-  std::vector<int> first, second;         //         ends, from the body's first particle; padded to whole quads
+  std::vector<int> order;                 //         the body's particles as the slices take them; empty: as they are
+  std::vector<int> first, second;         //         ends, as places in that order; padded to whole quads
   AlignedVector<double> rest_length;      // [m]
   AlignedVector<double> stiffness;        // [N/m]   0 in the padding
   AlignedVector<double> damping;          // [N s/m]

@@ -1,7 +1,7 @@
 // What the vector passes share, once for each instruction set: particles as rows of x, y, z, 0, which a vector of four
 // doubles loads from anywhere at once, and the way from columns to rows and back.
-#include <array>
 #include <cstddef>
+#include <vector>
 
 #if defined(BILLOW_SIM_VECTOR_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BILLOW_SIM_VECTOR_ROWS_INL_H
@@ -32,13 +32,19 @@ inline void plain_rows_of(const double* const column[3], int begin, int end, dou
 using Quad = hn::CappedTag<double, 4>;
 using QV = hn::Vec<Quad>;
 
+/// Four rows, by name: elements of an array do not stay in registers.
+struct Rows {
+  QV a, b, c, e;
+};
+
 /// The x, y and z of four rows.
-HWY_INLINE Vector3<QV> transposed(const std::array<QV, 4>& row) {
+HWY_INLINE Vector3<QV> transposed(const Rows& rows) {
   const Quad d;
-  const QV xz_01 = hn::InterleaveLower(d, row[0], row[1]), y_01 = hn::InterleaveUpper(d, row[0], row[1]);
-  const QV xz_23 = hn::InterleaveLower(d, row[2], row[3]), y_23 = hn::InterleaveUpper(d, row[2], row[3]);
-  return {hn::ConcatLowerLower(d, xz_23, xz_01), hn::ConcatLowerLower(d, y_23, y_01),
-          hn::ConcatUpperUpper(d, xz_23, xz_01)};
+  const auto [a, b, c, e] = rows;
+  const QV xz_ab = hn::InterleaveLower(d, a, b), y_ab = hn::InterleaveUpper(d, a, b);
+  const QV xz_ce = hn::InterleaveLower(d, c, e), y_ce = hn::InterleaveUpper(d, c, e);
+  return {hn::ConcatLowerLower(d, xz_ce, xz_ab), hn::ConcatLowerLower(d, y_ce, y_ab),
+          hn::ConcatUpperUpper(d, xz_ce, xz_ab)};
 }
 
 /// Particles [begin, end) of the columns, each as a row of four at `rows`.
@@ -64,6 +70,16 @@ inline void rows_of(const double* const column[3], int begin, int end, double* r
 }
 
 #endif
+
+/// As rows_of, of the particles at places [begin, end) of `order`; of those themselves where it is empty.
+inline void ordered_rows_of(const double* const column[3], const std::vector<int>& order, int begin, int end,
+                            double* rows) {
+  if (order.empty()) return rows_of(column, begin, end, rows);
+  for (int r = begin; r < end; ++r, rows += 4) {
+    const int i = order[static_cast<std::size_t>(r)];
+    rows[0] = column[0][i], rows[1] = column[1][i], rows[2] = column[2][i], rows[3] = 0.0;
+  }
+}
 
 }  // namespace billow::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,0 +1,112 @@
+// Force pass, filter pass and whole filtered FB Euler step.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <map>
+#include <memory>
+
+#include "bench/cloths.h"
+#include "bench/sections.h"
+#include "sim/filter.h"
+#include "sim/filtered_step.h"
+#include "sim/forces.h"
+#include "sim/spring_force.h"
+
+namespace billow::bench {
+
+namespace {
+
+constexpr double step_size = 1e-6;  // [s] so small that the cloth stays as it is however many steps are taken
+
+// A cloth a little out of rest, so that no branch is better predicted than in a run.
+sim::State stretched(const sim::Structure& structure) {
+  sim::State state = sim::rest_state(structure);
+  state.position.col(0) *= 1.02;
+  return state;
+}
+
+// Runs `work` over and over with `threads` threads.
+template <class Work>
+void measure(benchmark::State& run, const sim::Structure& structure, int threads, const Work& work) {
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute([&] {
+    for (auto _ : run) work();
+  });
+  run.counters["springs"] = structure.springs();
+}
+
+/// Everything about a cloth that a run makes once.
+struct Prepared {
+  explicit Prepared(const sim::Structure& cloth)
+      : structure(cloth), springs(cloth), forces(cloth, {0.0, -9.81, 0.0}), filter(cloth, {}) {}
+
+  const sim::Structure& structure;
+  sim::SpringForce springs;
+  sim::Forces forces;
+  sim::Filter filter;
+};
+
+const Prepared& prepared(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<const Prepared>> made;
+  std::unique_ptr<const Prepared>& entry = made[name];
+  if (!entry) entry = std::make_unique<const Prepared>(cloth(name));
+  return *entry;
+}
+
+void force_pass(benchmark::State& run, const std::string& name, int threads) {
+  const Prepared& on = prepared(name);
+  const sim::State state = stretched(on.structure);
+  Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(on.structure.particles(), 3);
+  measure(run, on.structure, threads, [&] { on.springs.add_force(state, force); });
+}
+
+void filter_pass(benchmark::State& run, const std::string& name, int threads) {
+  const Prepared& on = prepared(name);
+  sim::State state = stretched(on.structure);
+  measure(run, on.structure, threads, [&] { on.filter.apply(state.position, 0.0, state.velocity); });
+}
+
+void filtered_step(benchmark::State& run, const std::string& name, int threads) {
+  const Prepared& on = prepared(name);
+  sim::FilteredStep step(on.structure, on.forces, sim::Method::fb_euler, {}, &on.filter);
+  sim::State state = stretched(on.structure);
+  measure(run, on.structure, threads, [&] { step(state, step_size); });
+}
+
+void add(const std::string& pass, const std::string& name, int threads,
+         void (*function)(benchmark::State&, const std::string&, int)) {
+  benchmark::RegisterBenchmark(pass_name(pass, name, threads).c_str(), function, name, threads)->UseRealTime();
+}
+
+}  // namespace
+
+std::string pass_name(const std::string& pass, const std::string& cloth, int threads) {
+  return fmt::format("{}, {}, {} thread{}", pass, cloth, threads, threads == 1 ? "" : "s");
+}
+
+Targets add_passes() {
+  Targets targets;
+  const auto force = [](const std::string& name, int threads = 1) { return pass_name("force", name, threads); };
+  for (const std::string name : {"grid 32", "grid 100", "grid 300", "grid 1000", "irregular 0", "irregular 1"})
+    for (const int threads : {1, 2}) {
+      add("force", name, threads, force_pass);
+      add("filter", name, threads, filter_pass);
+      add("step", name, threads, filtered_step);
+      const bool large = name == "grid 300" || name == "grid 1000";
+      if (threads == 2)
+        targets.push_back({fmt::format("step on {}: 2 threads against 1", name), pass_name("step", name, 1),
+                           pass_name("step", name, 2), large ? 1.7 : 0.95, true, true});
+    }
+  targets.push_back({"force pass, grid 100, against the ceiling", force("grid 100"), ceiling_name, 1.5});
+  for (const std::string name : {"irregular 0", "irregular 1"})
+    targets.push_back({fmt::format("force pass, {}, against the ceiling", name), force(name), ceiling_name, 2.5});
+  targets.push_back(
+      {"filter pass against force pass, grid 100", pass_name("filter", "grid 100", 1), force("grid 100"), 0.4});
+  targets.push_back(
+      {"whole step against force pass, grid 100", pass_name("step", "grid 100", 1), force("grid 100"), 1.7});
+  targets.push_back({"force pass, grid 1000 against grid 100", force("grid 1000"), force("grid 100"), 3.0});
+  return targets;
+}
+
+}  // namespace billow::bench
