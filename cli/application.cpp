@@ -75,7 +75,7 @@ void add_render(CLI::App& app, Request& r) {
   c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")
       ->excludes(overwrite)
       ->excludes(frames);
-  c.add_option("--threads", r.render.threads, "Threads for drawing and encoding (default: one per core)")
+  c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
   static const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::automatic},

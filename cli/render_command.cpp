@@ -1,5 +1,6 @@
 // billow render: a scene's frames, strip, record and page.
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,9 @@ int render_command(const RenderOptions& options) {
 
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
                  const RenderOptions& options) {
+  const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
   catch_interrupts();
   OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
   say_start(simulation, scene, choice);
@@ -122,7 +126,6 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
   if (interrupted_by() != 0) return 128 + interrupted_by();
   folder.begin_run();
   render::write_file_atomically(folder.record(), begun_record(scene, options.command));
-  const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   const FilmReport report =
       make_film(scene, simulation, choice, found.bounds, range_of(options, scene), folder, threads, progress);
   render::write_file_atomically(folder.record(),

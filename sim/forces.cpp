@@ -14,7 +14,8 @@ class Gravity : public ForceTerm {
  public:
   Gravity(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure), gravity_(gravity) {}
   void add_force(const State&, Eigen::MatrixX3d& force) const override {
-    for (int axis = 0; axis < 3; ++axis) force.col(axis) += gravity_(axis) * structure_.mass;
+    for (int axis = 0; axis < 3; ++axis)
+      if (gravity_(axis) != 0.0) force.col(axis) += gravity_(axis) * structure_.mass;
   }
   double energy(const State& state) const override { return -structure_.mass.dot(state.position * gravity_); }
 

@@ -2,6 +2,7 @@
 // set that this machine has and with any number of threads.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -149,6 +150,7 @@ TEST(FilterPass, HasTheSameBitsOnEveryInstructionSet) {
 }
 
 TEST(Step, HasTheSameBitsWithAnyNumberOfThreads) {
+  const oneapi::tbb::global_control more_than_cores(oneapi::tbb::global_control::max_allowed_parallelism, 8);
   const Structure sheet = grid({.width = 120, .height = 110, .structural = 100.0, .shear = 70.0, .bend = 30.0});
   const Structure structure = merge({sheet, shuffled(sheet)});
   const Forces forces(structure, {0.0, -9.81, 0.0});
