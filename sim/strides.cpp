@@ -2,7 +2,6 @@
 #include "sim/strides.h"
 
 #include <algorithm>
-#include <set>
 
 namespace billow::sim {
 
@@ -21,7 +20,7 @@ std::vector<int> common_strides(const std::vector<std::pair<int, int>>& pairs, i
   distance.erase(std::unique(distance.begin(), distance.end()), distance.end());
   const double places = static_cast<double>(distance.size()) * particles;
   const bool regular = distance.size() <= most_strides && static_cast<double>(pairs.size()) >= least_taken * places;
-  const bool distinct = std::set<std::pair<int, int>>(pairs.begin(), pairs.end()).size() == pairs.size();
+  const bool distinct = std::adjacent_find(pairs.begin(), pairs.end()) == pairs.end();
   return regular && distinct ? distance : std::vector<int>{};
 }
 

@@ -6,8 +6,8 @@
 
 namespace billow::sim {
 
-/// The distinct distances j - i > 0 of `pairs` (i < j, no pair twice), ascending, when storing a place for each at
-/// each of `particles` wastes little: few distances, most of their places taken. Empty otherwise.
+/// The distinct distances j - i > 0 of `pairs` (i < j), when storing a place for each at each of `particles` wastes
+/// little: few distances, most of their places taken, no pair twice. Ascending, as the pairs are; empty otherwise.
 std::vector<int> common_strides(const std::vector<std::pair<int, int>>& pairs, int particles);
 
 }  // namespace billow::sim
