@@ -26,14 +26,15 @@ constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6
 constexpr std::array dashes = {"1", "2", "4", "5", "3", "1", "2"};
 constexpr std::array points = {7, 5, 9, 13, 11, 6, 4};
 
-// As gnuplot reads it between double quotes.
+// As gnuplot reads it between single quotes, where nothing but the quote itself has a meaning. Between double quotes it
+// would hand what stands in backquotes to a shell.
 std::string quoted(const std::string& text) {
-  std::string out = "\"";
+  std::string out = "'";
   for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
+    if (c == '\'') out += '\'';
+    out += c == '\n' || c == '\r' ? ' ' : c;
   }
-  return out + '"';
+  return out + '\'';
 }
 
 // Logarithms exist of positive numbers only; gnuplot would give up on a curve without one.

@@ -1,6 +1,8 @@
 // Plots through gnuplot.
 #include "render/plot.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -43,6 +45,31 @@ TEST(WritePlot, GivesTheSameBytesTwice) {
     EXPECT_EQ(test::read_text(folder.path() / (std::string("a") + end)),
               test::read_text(folder.path() / (std::string("b") + end)))
         << end;
+}
+
+// gnuplot gives what stands in backquotes to a shell, even between double quotes.
+TEST(WritePlot, RunsNothingThatANameSays) {
+  const test::TemporaryFolder folder;
+  Plot plot = two_curves();
+  const std::string command = fmt::format("`touch {}`", (folder.path() / "ran").string());
+  plot.title = plot.x_label = plot.y_label = plot.curves[0].name = command;
+  plot.curves[1].name = "it's \\\n & <b> $x @y {z}_2 %s \"";
+  write_plot(plot, folder.path() / "time `touch ran`");
+  EXPECT_FALSE(fs::exists(folder.path() / "ran"));
+  const std::string svg = test::read_text(folder.path() / "time `touch ran`.svg");
+  EXPECT_THAT(svg, testing::HasSubstr("`touch "));
+  EXPECT_THAT(svg, testing::HasSubstr("it's \\  &amp; &lt;b> $x @y {z}_2 %s \""));
+}
+
+// A value that is not a number parts the curve in two.
+TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
+  const test::TemporaryFolder folder;
+  Plot whole{"", "x", "y", false, false, false, {{"c", {0, 1, 2, 3, 4}, {1, 2, 3, 2, 1}}}}, gap = whole;
+  gap.curves[0].y[2] = NAN;
+  write_plot(whole, folder.path() / "whole");
+  write_plot(gap, folder.path() / "gap");
+  EXPECT_NE(test::read_text(folder.path() / "gap.svg"), test::read_text(folder.path() / "whole.svg"));
+  EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\n\"c\",0,1\n\"c\",1,2\n\"c\",3,2\n\"c\",4,1\n");
 }
 
 TEST(WritePlot, LeavesOutWhatALogarithmDoesNotHave) {
