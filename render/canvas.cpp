@@ -70,6 +70,14 @@ void Canvas::fill_rectangle(double x, double y, double width, double height, dou
   cairo_fill(pen_);
 }
 
+void Canvas::draw_line(double x0, double y0, double x1, double y1, double grey) {
+  cairo_set_source_rgb(pen_, grey, grey, grey);
+  cairo_set_line_width(pen_, 1.0);
+  cairo_move_to(pen_, x0, y0);
+  cairo_line_to(pen_, x1, y1);
+  cairo_stroke(pen_);
+}
+
 void Canvas::place(const Image& image, double x, double y, double width, double height, bool smooth) {
   const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, image.width);
   std::vector<std::uint32_t> words = words_of(image, stride);

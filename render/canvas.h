@@ -25,6 +25,8 @@ class Canvas {
   /// In ink of grey `ink`. `align`: 0 starts at x, 1/2 is centred on it, 1 ends there.
   void write(const std::string& text, double x, double baseline, double align, double ink = 0.16);
   void fill_rectangle(double x, double y, double width, double height, double grey);
+  /// One unit wide.
+  void draw_line(double x0, double y0, double x1, double y1, double grey);
   /// `image` (RGB) stretched over the rectangle; `smooth` filters, otherwise pixels stay sharp squares.
   void place(const Image& image, double x, double y, double width, double height, bool smooth);
 

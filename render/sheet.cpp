@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "render/canvas.h"
 #include "sim/error.h"
@@ -13,7 +14,7 @@ namespace billow::render {
 
 namespace {
 
-constexpr int margin = 28, gap = 12;
+constexpr int margin = 28, gap = 12, timed_gap = 6;
 constexpr double title_size = 22.0, label_size = 16.0, small_size = 14.0;
 constexpr double ink = 0.13, quiet = 0.40, rule = 0.55;
 constexpr int title_height = 38, label_height = 28, caption_height = 24, axis_height = 44, line_height = 22;
@@ -33,18 +34,44 @@ double place_of(const Sheet& sheet, double time) {
   return margin + sheet.axis_width * (time - sheet.begin) / (sheet.end - sheet.begin);
 }
 
-double left_edge(const Sheet& sheet, const SheetRow& row, std::size_t panel) {
-  if (!row.times.empty()) return place_of(sheet, row.times[panel]);
+std::vector<double> one_after_another(const SheetRow& row) {
+  std::vector<double> left;
   double x = margin;
-  for (std::size_t p = 0; p < panel; ++p) x += row.panels[p].width + gap;
-  return x;
+  for (const Panel& panel : row.panels) left.push_back(x), x += panel.width + gap;
+  return left;
+}
+
+// Each at its time, or as near to it as its neighbours and the axis' end allow: pushed to the right by those before it,
+// then back to the left by the end. More than the axis holds runs over its end.
+std::vector<double> at_their_times(const Sheet& sheet, const SheetRow& row) {
+  std::vector<std::size_t> order(row.panels.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return row.times[a] < row.times[b]; });
+  std::vector<double> left(order.size());
+  double free = margin, total = -timed_gap;
+  for (const std::size_t p : order) {
+    left[p] = std::max(free, place_of(sheet, row.times[p]));
+    free = left[p] + row.panels[p].width + timed_gap;
+    total += row.panels[p].width + timed_gap;
+  }
+  double end = margin + std::max<double>(sheet.axis_width, total);
+  for (auto p = order.rbegin(); p != order.rend(); ++p) {
+    left[*p] = std::min(left[*p], end - row.panels[*p].width);
+    end = left[*p] - timed_gap;
+  }
+  return left;
+}
+
+std::vector<double> left_edges(const Sheet& sheet, const SheetRow& row) {
+  return row.times.empty() ? one_after_another(row) : at_their_times(sheet, row);
 }
 
 double right_edge(const Sheet& sheet) {
   double right = margin + sheet.axis_width;
-  for (const SheetRow& row : sheet.rows)
-    for (std::size_t p = 0; p < row.panels.size(); ++p)
-      right = std::max(right, left_edge(sheet, row, p) + row.panels[p].width);
+  for (const SheetRow& row : sheet.rows) {
+    const std::vector<double> left = left_edges(sheet, row);
+    for (std::size_t p = 0; p < left.size(); ++p) right = std::max(right, left[p] + row.panels[p].width);
+  }
   return right;
 }
 
@@ -74,10 +101,24 @@ void draw_axis(Canvas& canvas, const Sheet& sheet, double y) {
   canvas.fill_rectangle(margin, y + 6.0, sheet.axis_width, 1.0, rule);
   canvas.set_font(small_size);
   const double step = round_step(sheet.end - sheet.begin, 10.0);
-  for (int tick = 0; sheet.begin + tick * step <= sheet.end * (1.0 + 1e-9); ++tick) {
-    const double time = sheet.begin + tick * step, x = place_of(sheet, time);
+  const double first = std::ceil(sheet.begin / step - 1e-9) + 0.0;  // never -0
+  const double last = std::floor(sheet.end / step + 1e-9);
+  for (double tick = first; tick <= last; ++tick) {
+    const double time = tick * step, x = place_of(sheet, time);
     canvas.fill_rectangle(x - 0.5, y + 6.0, 1.0, 6.0, rule);
-    canvas.write(fmt::format("{:.6g}{}", time, tick == 0 ? " s" : ""), x, y + 28.0, tick == 0 ? 0.0 : 0.5, quiet);
+    canvas.write(fmt::format("{:.6g}{}", time, tick == first ? " s" : ""), x, y + 28.0, tick == first ? 0.0 : 0.5,
+                 quiet);
+  }
+}
+
+// From each panel's time on the axis to its left edge: marks on the axis at `axis`, and lines that start below the
+// axis' numbers.
+void draw_links(Canvas& canvas, const Sheet& sheet, const SheetRow& row, double axis, double panels) {
+  const std::vector<double> left = left_edges(sheet, row);
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    const double x = place_of(sheet, row.times[p]);
+    canvas.fill_rectangle(x - 1.0, axis + 6.0, 2.0, 7.0, ink);
+    canvas.draw_line(x, axis + 35.0, left[p] + 0.5, panels, rule);
   }
 }
 
@@ -88,25 +129,42 @@ void draw_panel(Canvas& canvas, const Panel& panel, double x, double y) {
   canvas.write(panel.caption, x + 0.5 * panel.width, y + panel.height + 17.0, 0.5, quiet);
 }
 
+// In front of the lines that may cross it.
+void draw_label(Canvas& canvas, const std::string& label, int y) {
+  canvas.set_font(label_size, true);
+  canvas.fill_rectangle(margin, y + 3.0, canvas.text_width(label) + 4.0, label_size + 5.0, 1.0);
+  canvas.write(label, margin, y + 19.0, 0.0, ink);
+}
+
+int panels_top(const SheetRow& row, int y) { return y + (row.label.empty() ? 0 : label_height); }
+
 // Returns where the next row begins.
 int draw_row(Canvas& canvas, const Sheet& sheet, const SheetRow& row, int y) {
-  if (!row.label.empty()) {
-    canvas.set_font(label_size, true);
-    canvas.write(row.label, margin, y + 19.0, 0.0, ink);
-    y += label_height;
-  }
-  for (std::size_t p = 0; p < row.panels.size(); ++p) draw_panel(canvas, row.panels[p], left_edge(sheet, row, p), y);
+  if (!row.label.empty()) draw_label(canvas, row.label, y);
+  y = panels_top(row, y);
+  const std::vector<double> left = left_edges(sheet, row);
+  for (std::size_t p = 0; p < row.panels.size(); ++p) draw_panel(canvas, row.panels[p], left[p], y);
   y += panels_height(row) + (has_caption(row) ? caption_height : 0);
   if (row.axis_below) draw_axis(canvas, sheet, y), y += axis_height;
   return y + gap;
 }
 
+int draw_rows(Canvas& canvas, const Sheet& sheet, int y) {
+  std::optional<int> axis;
+  for (const SheetRow& row : sheet.rows) {
+    if (axis && !row.times.empty()) draw_links(canvas, sheet, row, *axis, panels_top(row, y));
+    y = draw_row(canvas, sheet, row, y);
+    if (row.axis_below) axis = y - gap - axis_height;
+  }
+  return y;
+}
+
 int draw_columns(Canvas& canvas, const Sheet& sheet, int y) {
   if (sheet.columns.empty()) return y;
-  const SheetRow& row = sheet.rows.front();
+  const std::vector<double> left = left_edges(sheet, sheet.rows.front());
   canvas.set_font(label_size, true);
-  for (std::size_t c = 0; c < std::min(sheet.columns.size(), row.panels.size()); ++c)
-    canvas.write(sheet.columns[c], left_edge(sheet, row, c), y + 19.0, 0.0, ink);
+  for (std::size_t c = 0; c < std::min(sheet.columns.size(), left.size()); ++c)
+    canvas.write(sheet.columns[c], left[c], y + 19.0, 0.0, ink);
   return y + label_height;
 }
 
@@ -124,13 +182,38 @@ int draw_text(Canvas& canvas, const std::string& text, double size, bool bold, d
 int draw_all(Canvas& canvas, const Sheet& sheet, double width) {
   int y = draw_text(canvas, sheet.title, title_size, true, ink, title_height, width, margin);
   y = draw_columns(canvas, sheet, y);
-  for (const SheetRow& row : sheet.rows) y = draw_row(canvas, sheet, row, y);
+  y = draw_rows(canvas, sheet, y);
   return draw_text(canvas, sheet.note, small_size, false, quiet, line_height, width, y) + margin - gap;
+}
+
+void check_panel(const Panel& panel) {
+  if (panel.image.width <= 0 || panel.image.height <= 0)
+    throw InputError("a sheet cannot show a picture without pixels; leave it out");
+  if (panel.width <= 0 || panel.height <= 0)
+    throw InputError(
+        fmt::format("a picture cannot be shown at {} x {} pixels; make it larger", panel.width, panel.height));
+  if (panel.width > largest_side || panel.height > largest_side)
+    throw InputError(
+        fmt::format("a picture of {} x {} pixels does not fit on a sheet; show it smaller", panel.width, panel.height));
+}
+
+void check(const Sheet& sheet) {
+  for (const SheetRow& row : sheet.rows) {
+    const bool timed = !row.times.empty() || row.axis_below;
+    if (timed && (sheet.axis_width <= 0 || !(sheet.begin < sheet.end)))
+      throw InputError(fmt::format("a sheet's time axis from {:g} s to {:g} s is empty; make it end after it begins",
+                                   sheet.begin, sheet.end));
+    if (!row.times.empty() && row.times.size() != row.panels.size())
+      throw InputError(fmt::format("{} pictures of a row have {} times; give each one, or none", row.panels.size(),
+                                   row.times.size()));
+    for (const Panel& panel : row.panels) check_panel(panel);
+  }
 }
 
 }  // namespace
 
 Image draw_sheet(const Sheet& sheet) {
+  check(sheet);
   const double right = right_edge(sheet);
   const int width = static_cast<int>(std::ceil(right)) + margin;
   Canvas measure(1, 1);

@@ -17,7 +17,8 @@ struct Panel {
   std::string caption;  // below it
 };
 
-/// Panels from left to right. Where a time axis runs along the sheet, a panel with a time stands at it.
+/// Panels from left to right. Where a time axis runs along the sheet, a panel with a time stands at it, or beside it
+/// where its neighbours or the axis' end leave no room, and is linked to it by a line from the axis above.
 struct SheetRow {
   std::string label;  // above the row
   std::vector<Panel> panels;
@@ -33,7 +34,8 @@ struct Sheet {
   std::vector<SheetRow> rows;
 };
 
-/// RGB, as large as its panels and their words need. Throws InputError when that is more than 16384 pixels a side.
+/// RGB, as large as its panels and their words need. Throws InputError when that is more than 16384 pixels a side, when
+/// a panel has no pixels or no size, when a row has some times but not one per panel, or when a time axis is empty.
 Image draw_sheet(const Sheet& sheet);
 
 }  // namespace billow::render

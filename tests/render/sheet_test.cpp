@@ -47,6 +47,56 @@ TEST(Sheet, KeepsPixels) {
         ASSERT_EQ(page.row(28 + y)[3 * (28 + x) + c], image.row(y / 3)[3 * (x / 3) + c]) << x << ", " << y;
 }
 
+Sheet timed_sheet(const std::vector<double>& times) {
+  Sheet sheet{"", "", {}, 0.0, 4.0, 400, {}};
+  sheet.rows.push_back({"", {}, times, false});
+  for (std::size_t p = 0; p < times.size(); ++p) {
+    Panel panel{Image(1, 1), 90, 20, false, ""};
+    panel.image.pixels[0] = static_cast<std::uint8_t>(p + 1);
+    sheet.rows[0].panels.push_back(panel);
+  }
+  return sheet;
+}
+
+// Left edges of the panels, from the margin: panel p is red p + 1 and else black.
+std::vector<int> left_edges_of(const Image& page, std::size_t panels) {
+  std::vector<int> left(panels, -1);
+  for (int x = page.width - 1; x >= 0; --x) {
+    const std::uint8_t* pixel = page.row(38) + 3 * x;
+    if (pixel[1] == 0 && pixel[2] == 0 && pixel[0] >= 1 && pixel[0] <= panels) left[pixel[0] - 1] = x - 28;
+  }
+  return left;
+}
+
+TEST(Sheet, PutsPanelsAtTheirTimes) {
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({0.0, 1.0, 2.5})), 3), (std::vector<int>{0, 100, 250}));
+}
+
+// 90 wide and 6 apart: those that would cover each other, or run over the axis' end at 400, make room.
+TEST(Sheet, KeepsCrowdedPanelsApart) {
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({0.0, 0.1, 2.0})), 3), (std::vector<int>{0, 96, 200}));
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({1.0, 3.5, 3.9})), 3), (std::vector<int>{100, 214, 310}));
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({3.9, 1.0, 3.5})), 3), (std::vector<int>{310, 100, 214}));
+  const Image crowded = draw_sheet(timed_sheet({0, 0, 0, 0, 4}));
+  EXPECT_EQ(left_edges_of(crowded, 5), (std::vector<int>{0, 96, 192, 288, 384}));
+  EXPECT_EQ(crowded.width, 28 + 384 + 90 + 28);
+}
+
+TEST(Sheet, RefusesWhatCannotBeShown) {
+  Sheet sheet = timed_sheet({0.0, 1.0});
+  sheet.end = sheet.begin;
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0, 1.0});
+  sheet.rows[0].times.pop_back();
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0});
+  sheet.rows[0].panels[0].image = Image();
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0});
+  sheet.rows[0].panels[0].height = 0;
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+}
+
 TEST(Sheet, RefusesToBeHuge) {
   const Sheet sheet{"", "", {}, 0.0, 0.0, 0, {{"", {{ramp(2, 2), 20000, 10, true, ""}}, {}, false}}};
   EXPECT_THROW(draw_sheet(sheet), InputError);
