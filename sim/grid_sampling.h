@@ -9,9 +9,9 @@
 
 namespace billow::sim {
 
-/// A width x height grid of cells over the flat mesh, row by row from the top. On a regular grid each cell is a
-/// particle; on any other mesh, about as many cells as particles, each interpolated in the face that its centre lies
-/// in.
+/// A width x height grid of cells over the flat mesh, row by row from the top. On a regular, even grid each cell is a
+/// particle; on any other mesh, about as many cells as particles, evenly spaced from border to border, each
+/// interpolated in the face that it lies in.
 struct GridSampling {
   int width = 0, height = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor> weight;  // (cells x v)

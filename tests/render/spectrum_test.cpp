@@ -1,7 +1,12 @@
 // The spectrum against waves whose spectrum is known.
 #include "render/spectrum.h"
 
+#include <cmath>
 #include <numbers>
+
+#include "sim/flat_layout.h"
+#include "sim/grid_sampling.h"
+#include "sim/mesh_import.h"
 
 namespace billow::render {
 namespace {
@@ -47,6 +52,42 @@ TEST(Spectrum, RadiallyStandsAtItsWholeFrequency) {
   const Eigen::VectorXd radial = radial_power(spectrum_of(wave(3, 4, 2.0), width, height));
   EXPECT_NEAR(radial(5), 2.0, 1e-12);
   EXPECT_NEAR(radial.sum() - radial(5), 0.0, 1e-12);
+}
+
+// An image turned by a quarter has its spectrum turned by a quarter: place (y, x) about the middle goes to (x, -y). The
+// side is odd, so that the middle stays where it is.
+TEST(Spectrum, TurnsWithTheImage) {
+  constexpr int side = 15;
+  Eigen::MatrixX3d image = Eigen::MatrixX3d::Zero(side * side, 3), turned = image;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      image.row(y * side + x) << std::sin(0.3 * x * y), std::cos(1.1 * x), 0.1 * y;
+      turned.row(x * side + side - 1 - y) = image.row(y * side + x);
+    }
+  const Spectrum before = spectrum_of(image, side, side), after = spectrum_of(turned, side, side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) EXPECT_NEAR(after.power(x, side - 1 - y), before.power(y, x), 1e-12);
+  EXPECT_LT((radial_power(after) - radial_power(before)).norm(), 1e-12);
+}
+
+// The same motion of a cloth, whatever its mesh.
+Eigen::VectorXd radial_power_of_a_ripple(const std::string& mesh_name) {
+  const sim::Mesh mesh = sim::import_mesh(std::filesystem::path(BILLOW_SOURCE_DIR) / "assets/meshes" / mesh_name);
+  const Eigen::MatrixX2d place = sim::flat_layout(mesh).vertex;
+  Eigen::MatrixX3d velocity(mesh.vertices(), 3);
+  for (int v = 0; v < mesh.vertices(); ++v) {
+    const double across = std::pow(std::sin(std::numbers::pi * place(v, 0)), 2);
+    const double down = std::pow(std::sin(std::numbers::pi * place(v, 1)), 2);
+    velocity.row(v) << across * down, across * down * std::cos(10.0 * place(v, 0)), down * std::sin(20.0 * place(v, 1));
+  }
+  const sim::GridSampling grid = sim::grid_sampling(mesh);
+  return radial_power(spectrum_of(grid.sample(velocity), grid.width, grid.height));
+}
+
+TEST(Spectrum, OfAnIrregularMeshIsNearlyThatOfAGrid) {
+  const Eigen::VectorXd grid = radial_power_of_a_ripple("cloth_50.obj");
+  const Eigen::VectorXd irregular = radial_power_of_a_ripple("cloth_irregular.obj");
+  for (int r = 0; r <= 5; ++r) EXPECT_NEAR(irregular(r), grid(r), 0.1 * grid(r)) << r;
 }
 
 TEST(Spectrum, MeanIsOfPowers) {

@@ -22,6 +22,16 @@ TEST(GridSampling, OfARegularGridTakesEveryParticleOnce) {
   EXPECT_TRUE((taken.array() == 1.0).all());
 }
 
+// Rows of equal length that grow wider downwards are no image until they are resampled.
+TEST(GridSampling, OfAnUnevenGridIsInterpolated) {
+  Mesh mesh = test::quad_grid(9, 9);
+  mesh.uv.clear();
+  mesh.position.col(2) = mesh.position.col(2).array().square().eval();
+  const GridSampling grid = grid_sampling(mesh);
+  const Eigen::MatrixX3d cells = grid.sample(mesh.position);
+  for (int y = 0; y < grid.height; ++y) EXPECT_NEAR(cells(y * grid.width, 2), 8.0 * y, 1e-9);
+}
+
 // Interpolation within faces is exact for fields that are linear over the cloth.
 TEST(GridSampling, OfAnIrregularMeshIsExactForLinearFields) {
   const Mesh mesh = shipped("cloth_irregular.obj");
@@ -31,7 +41,7 @@ TEST(GridSampling, OfAnIrregularMeshIsExactForLinearFields) {
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) {
       ASSERT_TRUE(grid.covered[y * grid.width + x]);
-      const Eigen::RowVector3d exact((x + 0.5) / grid.width - 0.5, 0.0, (y + 0.5) / grid.height);
+      const Eigen::RowVector3d exact(x / (grid.width - 1.0) - 0.5, 0.0, y / (grid.height - 1.0));
       ASSERT_LT((cells.row(y * grid.width + x) - exact).norm(), 1e-5) << x << ", " << y;
     }
 }
