@@ -67,11 +67,12 @@ std::string settings(const Plot& plot) {
       "set encoding utf8\n"
       "set border 3 lc rgb \"#5a6368\"\n"
       "set tics nomirror textcolor rgb \"#23282c\"\n"
-      "set grid lc rgb \"#dcdcdc\" lw 1 dt 1\n"
+      "set grid lt 1 lc rgb \"#dcdfe1\" lw 1\n"
       "set key tmargin left Left reverse horizontal width 1 spacing 1.25\n"
-      "set autoscale xfix\n"
-      "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.02\n";
-  out += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(plot.title), quoted(plot.x_label),
+      "set autoscale xfix\n";
+  // A logarithmic axis ends at whole powers of ten: offsets would add a power for nothing.
+  out += fmt::format("set offsets graph 0.02, graph 0.02, {}\n", plot.log_y ? "0, 0" : "graph 0.04, graph 0.02");
+  out += fmt::format("set key title {} left\nset xlabel {}\nset ylabel {}\n", quoted(plot.title), quoted(plot.x_label),
                      quoted(plot.y_label));
   if (plot.log_x) out += "set logscale x\nset format x \"%g\"\n";
   if (plot.log_y) out += "set logscale y\nset format y \"%g\"\n";
