@@ -9,6 +9,7 @@
 #include "cli/yaml_overrides.h"
 #include "render/image.h"
 #include "render/settings.h"
+#include "render/spectrum.h"
 #include "sim/cloth.h"
 #include "sim/filter.h"
 #include "sim/fish.h"
@@ -71,6 +72,7 @@ struct SpectrumSpec {
   double step = 0.1;    // [s] between the samples that the mean is made of
   double at = 1.0;      // [s] of the velocity image that is shown
   double range = 80.0;  // [dB] from white, the strongest, to black
+  render::Window window = render::Window::none;
   int body = 0;
 };
 

@@ -156,9 +156,12 @@ const Section background{"background", {{"top", between(0, 1)}, {"bottom", betwe
 
 const Section strip{"strip", {{"step", above_0(1e5, "s")}, {"order", {}, {"zigzag", "mesh"}}}};
 
-const Section spectrum{
-    "spectrum",
-    {{"step", above_0(1e5, "s")}, {"at", at_least_0(1e5, "s")}, {"range", between(10, 300, "dB")}, {"body"}}};
+const Section spectrum{"spectrum",
+                       {{"step", above_0(1e5, "s")},
+                        {"at", at_least_0(1e5, "s")},
+                        {"range", between(10, 300, "dB")},
+                        {"window", {}, {"none", "hann"}},
+                        {"body"}}};
 
 const std::vector<PlacedSection>& all() {
   static const std::vector<PlacedSection> sections{{"", &scene},

@@ -44,6 +44,7 @@ std::optional<SpectrumSpec> read_spectrum(MapReader& scene, double duration, con
     fail_at(map.where("at"),
             fmt::format("at is {} s, and the scene ends at {} s", shortest(spectrum.at), shortest(duration)));
   spectrum.range = map.number("range", spectrum.range);
+  spectrum.window = map.choice("window", spectrum.window);
   spectrum.body = find_cloth(map, drafts);
   return spectrum;
 }

@@ -18,7 +18,7 @@ Eigen::MatrixX3d SpectrumRecorder::cells(const sim::State& state) const {
 }
 
 void SpectrumRecorder::add(const sim::State& state) {
-  mean_.add(render::spectrum_of(cells(state), grid_.width, grid_.height));
+  mean_.add(render::spectrum_of(cells(state), grid_.width, grid_.height, spec_.window));
 }
 
 void SpectrumRecorder::show(const sim::State& state) { shown_ = cells(state); }

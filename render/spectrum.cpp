@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unsupported/Eigen/FFT>
 
 #include "render/colour_map.h"
@@ -39,13 +40,31 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& power) {
   return moved;
 }
 
+// sin² over the n cells of a side, at their middles.
+Eigen::VectorXd hann(int n) {
+  const Eigen::ArrayXd middle = Eigen::ArrayXd::LinSpaced(n, 0.5, n - 0.5) / n;
+  return (std::numbers::pi * middle).sin().square();
+}
+
+// The powers of an image. Under a window the mean is kept out of the blur: it would drown its neighbours.
+Eigen::MatrixXd power_of(const Eigen::MatrixXd& image, Window window) {
+  if (window == Window::none) return transform(image).cwiseAbs2();
+  const Eigen::MatrixXd weight =
+      hann(static_cast<int>(image.rows())) * hann(static_cast<int>(image.cols())).transpose();
+  const Eigen::MatrixXd deviation = image.array() - image.mean();
+  Eigen::MatrixXd power = transform(weight.cwiseProduct(deviation)).cwiseAbs2();
+  power *= static_cast<double>(weight.size()) / weight.squaredNorm();
+  power(0, 0) += std::pow(image.sum(), 2);
+  return power;
+}
+
 }  // namespace
 
-Spectrum spectrum_of(const Eigen::MatrixX3d& velocity, int width, int height) {
+Spectrum spectrum_of(const Eigen::MatrixX3d& velocity, int width, int height, Window window) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::MatrixXd power = Eigen::MatrixXd::Zero(height, width);
   for (int axis = 0; axis < 3; ++axis)
-    power += transform(Eigen::Map<const RowMajor>(velocity.col(axis).data(), height, width)).cwiseAbs2();
+    power += power_of(Eigen::Map<const RowMajor>(velocity.col(axis).data(), height, width), window);
   const double cells = static_cast<double>(width) * height;
   return {centred(power) / (cells * cells)};
 }

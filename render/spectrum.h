@@ -7,15 +7,22 @@
 
 namespace billow::render {
 
+/// What the velocities are multiplied by before the transform, which takes the image to go on at its opposite side.
+/// Where the sides differ, that step alone puts power at every frequency along the axes: `none`, as in the paper, shows
+/// it as a cross. `hann`, sin² across either way, fades the deviation from the mean out at the border, and blurs what
+/// remains over 3 x 3 frequencies.
+enum class Window { none, hann };
+
 /// Power of a w x h image of velocities by spatial frequency: |F(k)|^2 / (w h)^2, summed over the three components,
 /// where F is the discrete Fourier transform. Zero frequency is at row h / 2, column w / 2; frequencies are in cycles
-/// per side. The powers sum to the mean square speed (Parseval). No window is applied.
+/// per side. The powers sum to the mean square speed (Parseval).
 struct Spectrum {
   Eigen::MatrixXd power;  // [m^2/s^2] (h x w)
 };
 
-/// `velocity` (w h x 3) [m/s], row by row.
-Spectrum spectrum_of(const Eigen::MatrixX3d& velocity, int width, int height);
+/// `velocity` (w h x 3) [m/s], row by row. With a window the powers are divided by its mean square, so that they still
+/// sum to the mean square speed of noise, and of other motion on average.
+Spectrum spectrum_of(const Eigen::MatrixX3d& velocity, int width, int height, Window window = Window::none);
 
 /// Power by radial frequency, rounded to whole cycles: entry r sums all frequencies at r - 1/2 to r + 1/2. Sums to the
 /// mean square speed too.

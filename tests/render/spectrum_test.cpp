@@ -70,6 +70,29 @@ TEST(Spectrum, TurnsWithTheImage) {
   EXPECT_LT((radial_power(after) - radial_power(before)).norm(), 1e-12);
 }
 
+// A slope across the image jumps where the image is taken to go on: without a window its ring 8 holds power that no
+// motion has.
+TEST(Spectrum, WindowTakesAwayWhatTheBorderAdds) {
+  constexpr int side = 40;
+  Eigen::MatrixX3d slope(side * side, 3);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) slope.row(y * side + x) << 0.1 * x, 0.2 * y, 1.0;
+  const Eigen::VectorXd bare = radial_power(spectrum_of(slope, side, side));
+  const Eigen::VectorXd windowed = radial_power(spectrum_of(slope, side, side, Window::hann));
+  EXPECT_GT(bare(8), 0.01);
+  EXPECT_LT(windowed(8), 1e-3 * bare(8));
+}
+
+// What does not jump stays: a wave's power, spread over its neighbours, and the mean.
+TEST(Spectrum, WindowKeepsWavesAndTheMean) {
+  Eigen::MatrixX3d velocity = wave(6, 0, 2.0);
+  velocity.col(0).setConstant(3.0);
+  const Spectrum spectrum = spectrum_of(velocity, width, height, Window::hann);
+  EXPECT_NEAR(spectrum.power(height / 2, width / 2), 9.0, 1e-6);
+  EXPECT_NEAR(spectrum.power.block(height / 2 - 1, width / 2 + 5, 3, 3).sum(), 1.0, 1e-6);
+  EXPECT_NEAR(spectrum.power.sum(), 11.0, 1e-6);
+}
+
 // The same motion of a cloth, whatever its mesh.
 Eigen::VectorXd radial_power_of_a_ripple(const std::string& mesh_name) {
   const sim::Mesh mesh = sim::import_mesh(std::filesystem::path(BILLOW_SOURCE_DIR) / "assets/meshes" / mesh_name);
