@@ -1,10 +1,11 @@
 // Backward Euler, linearised once per step (Baraff & Witkin 1998): with K = -df/dx and C = -df/dv,
 // (M + h C + h^2 K) dv = h (f - h K v), v' = v + dv, x' = x + h v'. Order 1, unconditionally stable on the linear
 // problem, damps every frequency. K is taken in its definite form.
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
+#include <optional>
 #include <vector>
 
+#include "sim/block_jacobi.h"
 #include "sim/conjugate_gradient.h"
 #include "sim/schemes.h"
 
@@ -12,29 +13,12 @@ namespace billow::sim {
 
 namespace {
 
-void zero_pinned_rows(const Structure& structure, Eigen::MatrixX3d& field) {
+std::vector<int> pinned_particles(const Structure& structure) {
+  std::vector<int> pinned;
   for (int i = 0; i < structure.particles(); ++i)
-    if (structure.pinned(i)) field.row(i).setZero();
+    if (structure.pinned(i)) pinned.push_back(i);
+  return pinned;
 }
-
-/// The inverse of each 3 x 3 diagonal block: block-Jacobi.
-class BlockJacobi {
- public:
-  BlockJacobi(const Structure& structure, const StiffnessMatrix& matrix) : inverse_(matrix.diagonal_blocks()) {
-    for (int i = 0; i < structure.particles(); ++i) {
-      Eigen::Matrix3d block = inverse_.middleRows<3>(3 * i);
-      inverse_.middleRows<3>(3 * i) = structure.pinned(i) ? Eigen::Matrix3d::Zero().eval() : block.inverse().eval();
-    }
-  }
-  void apply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) const {
-    y.resize(x.rows(), 3);
-    for (int i = 0; i < x.rows(); ++i)
-      y.row(i).noalias() = (inverse_.middleRows<3>(3 * i) * x.row(i).transpose()).transpose();
-  }
-
- private:
-  Eigen::MatrixX3d inverse_;  // (3n x 3)
-};
 
 class BackwardEuler : public Integrator {
  public:
@@ -42,13 +26,14 @@ class BackwardEuler : public Integrator {
 
   void step(const Structure& structure, const Forces& forces, State& state, double h,
             const VelocityHook& velocity_known) override {
-    StiffnessMatrix matrix = forces.linearise(state, h * h, h, JacobianForm::definite);
-    right_hand_side(structure, forces, state, h);
-    for (int i = 0; i < structure.particles(); ++i) matrix.add_diagonal(i, structure.mass(i));
-    if (options_.linear_solver == LinearSolver::cholesky)
-      solve_directly(structure, matrix);
-    else
-      solve_iteratively(structure, matrix);
+    if (!system_) prepare(structure);
+    forces.linearise(state, 1.0, 0.0, JacobianForm::definite, *stiffness_);
+    forces.evaluate(state, b_);
+    stiffness_->multiply(state.velocity, product_);
+    b_ = h * (b_ - h * product_);
+    zero_pinned_rows(b_);
+    form_system(structure, forces, state, h);
+    options_.linear_solver == LinearSolver::cholesky ? solve_directly(structure) : solve_iteratively();
     state.velocity += change_;
     if (velocity_known) velocity_known(state.position, state.velocity);
     state.position += h * state.velocity;
@@ -58,32 +43,42 @@ class BackwardEuler : public Integrator {
   SolveCounts solve_counts() const override { return counts_; }
 
  private:
-  // b = h (f - h K v)
-  void right_hand_side(const Structure& structure, const Forces& forces, const State& state, double h) {
-    forces.evaluate(state, b_);
-    forces.linearise(state, h, 0.0, JacobianForm::definite).multiply(state.velocity, product_);
-    b_ = h * (b_ - product_);
-    zero_pinned_rows(structure, b_);
+  void prepare(const Structure& structure) {
+    stiffness_.emplace(structure);
+    system_.emplace(*stiffness_);
+    pinned_ = pinned_particles(structure);
+    previous_change_ = change_ = Eigen::MatrixX3d::Zero(structure.particles(), 3);
   }
 
-  // The last change of velocity is the first guess for this one.
-  void solve_iteratively(const Structure& structure, const StiffnessMatrix& matrix) {
-    if (change_.rows() != b_.rows()) change_ = Eigen::MatrixX3d::Zero(b_.rows(), 3);
-    const BlockJacobi preconditioner(structure, matrix);
-    const auto multiply = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
-      matrix.multiply(x, y);
-      zero_pinned_rows(structure, y);
+  void zero_pinned_rows(Eigen::MatrixX3d& field) const {
+    for (const int i : pinned_) field.row(i).setZero();
+  }
+
+  // M + h C + h^2 K. Where nothing but friction damps, C costs nothing.
+  void form_system(const Structure& structure, const Forces& forces, const State& state, double h) {
+    forces.linearise(state, 0.0, h, JacobianForm::definite, *system_);
+    system_->add_scaled(*stiffness_, h * h);
+    for (int i = 0; i < structure.particles(); ++i) system_->add_diagonal(i, structure.mass(i));
+  }
+
+  // First guess: the change of velocity goes on as the last two steps had it.
+  void solve_iteratively() {
+    preconditioner_.set(*system_);
+    extrapolate(previous_change_, change_);
+    const auto multiply = [this](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+      system_->multiply(x, y);
+      zero_pinned_rows(y);
     };
-    const auto precondition = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { preconditioner.apply(x, y); };
+    const auto precondition = [this](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { preconditioner_.apply(x, y); };
     const ConjugateGradientResult result =
-        conjugate_gradient(multiply, precondition, b_, options_.tolerance, options_.max_iterations, change_);
+        conjugate_gradient(multiply, precondition, b_, options_.tolerance, options_.max_iterations, change_, space_);
     ++counts_.solves;
     counts_.iterations += result.iterations;
     counts_.failures += !result.converged;
   }
 
-  void solve_directly(const Structure& structure, const StiffnessMatrix& matrix) {
-    const Eigen::SparseMatrix<double> a = matrix.assemble(true);
+  void solve_directly(const Structure& structure) {
+    const Eigen::SparseMatrix<double> a = system_->assemble(true);
     if (!analysed_) factor_.analyzePattern(a), analysed_ = true;
     factor_.factorize(a);
     ++counts_.solves;
@@ -96,7 +91,11 @@ class BackwardEuler : public Integrator {
 
   IntegratorOptions options_;
   SolveCounts counts_;
-  Eigen::MatrixX3d b_, product_, change_;
+  std::optional<StiffnessMatrix> stiffness_, system_;  // K, and M + h C + h^2 K
+  std::vector<int> pinned_;
+  Eigen::MatrixX3d b_, product_, previous_change_, change_;
+  BlockJacobi preconditioner_;
+  ConjugateGradientSpace space_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
   bool analysed_ = false;
 };

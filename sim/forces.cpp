@@ -76,8 +76,14 @@ double Forces::potential_energy(const State& state) const {
 StiffnessMatrix Forces::linearise(const State& state, double position_weight, double velocity_weight,
                                   JacobianForm form) const {
   StiffnessMatrix matrix(structure_);
-  for (const auto& term : terms_) term->add_linearisation(state, position_weight, velocity_weight, form, matrix);
+  linearise(state, position_weight, velocity_weight, form, matrix);
   return matrix;
+}
+
+void Forces::linearise(const State& state, double position_weight, double velocity_weight, JacobianForm form,
+                       StiffnessMatrix& matrix) const {
+  matrix.set_zero();
+  for (const auto& term : terms_) term->add_linearisation(state, position_weight, velocity_weight, form, matrix);
 }
 
 double kinetic_energy(const Structure& structure, const State& state) {

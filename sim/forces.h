@@ -45,6 +45,9 @@ class Forces {
   /// position_weight K + velocity_weight C at `state`.
   StiffnessMatrix linearise(const State& state, double position_weight, double velocity_weight,
                             JacobianForm form) const;
+  /// The same into `matrix`, whose memory is used again.
+  void linearise(const State& state, double position_weight, double velocity_weight, JacobianForm form,
+                 StiffnessMatrix& matrix) const;
 
   const Structure& structure() const { return structure_; }
 

@@ -49,10 +49,12 @@ class Imex : public Integrator {
     for (int i = 0; i < structure.particles(); ++i) system_->add_diagonal(i, structure.mass(i));
     factorised_step_ = h;
     if (options_.linear_solver == LinearSolver::cholesky) factor_.compute(system_->assemble_one_axis(true));
-    inverse_diagonal_ = system_->diagonal_blocks()(Eigen::seqN(0, structure.particles(), 3), 0).cwiseInverse();
+    Eigen::MatrixX3d straight, mixed;
+    system_->diagonal_blocks(straight, mixed);
+    inverse_diagonal_ = straight.col(0).cwiseInverse();
     for (int i = 0; i < structure.particles(); ++i)
       if (structure.pinned(i)) inverse_diagonal_(i) = 0.0;
-    change_ = Eigen::MatrixX3d::Zero(structure.particles(), 3);
+    previous_change_ = change_ = Eigen::MatrixX3d::Zero(structure.particles(), 3);
   }
 
   void solve(const Structure& structure) {
@@ -66,6 +68,7 @@ class Imex : public Integrator {
   }
 
   void solve_iteratively(const Structure& structure) {
+    extrapolate(previous_change_, change_);
     const auto multiply = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
       system_->multiply(x, y);
       for (int i = 0; i < structure.particles(); ++i)
@@ -75,7 +78,7 @@ class Imex : public Integrator {
       y = inverse_diagonal_.asDiagonal() * x;
     };
     const ConjugateGradientResult result =
-        conjugate_gradient(multiply, precondition, b_, options_.tolerance, options_.max_iterations, change_);
+        conjugate_gradient(multiply, precondition, b_, options_.tolerance, options_.max_iterations, change_, space_);
     counts_.iterations += result.iterations;
     counts_.failures += !result.converged;
   }
@@ -85,7 +88,8 @@ class Imex : public Integrator {
   std::optional<StiffnessMatrix> stiffness_, system_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
   Eigen::VectorXd inverse_diagonal_;
-  Eigen::MatrixX3d b_, product_, change_;
+  Eigen::MatrixX3d b_, product_, previous_change_, change_;
+  ConjugateGradientSpace space_;
   double factorised_step_ = 0.0;
 };
 

@@ -81,7 +81,8 @@ double SpringForce::energy(const State& state) const {
 // -df/dx of T(l) u is T/l (I - u u^T) + T' u u^T; -df/dv is c u u^T (projected) or c I.
 void SpringForce::add_linearisation(const State& state, double position_weight, double velocity_weight,
                                     JacobianForm form, StiffnessMatrix& matrix) const {
-  for (const Body& body : structure_.body)
+  for (const Body& body : structure_.body) {
+    if (position_weight == 0.0 && !is_damped(structure_, body)) continue;
     for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
       const Eigen::RowVector3d d =
           state.position.row(structure_.spring(s, 1)) - state.position.row(structure_.spring(s, 0));
@@ -96,6 +97,7 @@ void SpringForce::add_linearisation(const State& state, double position_weight, 
       matrix.add_block(s, d.transpose() / length, position_weight * transverse + (projected ? 0.0 : c),
                        position_weight * (slope - transverse) + (projected ? c : 0.0));
     }
+  }
 }
 
 }  // namespace billow::sim

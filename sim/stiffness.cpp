@@ -7,42 +7,57 @@ namespace billow::sim {
 
 StiffnessMatrix::StiffnessMatrix(const Structure& structure)
     : structure_(structure),
+      plan_(std::make_shared<const ProductPlan>(structure)),
       diagonal_(Eigen::VectorXd::Zero(structure.particles())),
-      direction_(Eigen::MatrixX3d::Zero(structure.springs(), 3)),
-      isotropic_(Eigen::VectorXd::Zero(structure.springs())),
-      along_(Eigen::VectorXd::Zero(structure.springs())) {}
+      direction_(Eigen::MatrixX3d::Zero(plan_->slots(), 3)),
+      isotropic_(Eigen::VectorXd::Zero(plan_->slots())),
+      along_(Eigen::VectorXd::Zero(plan_->slots())) {}
 
 void StiffnessMatrix::add_block(int spring, const Eigen::Vector3d& direction, double isotropic, double along) {
-  direction_.row(spring) = direction;
-  isotropic_(spring) += isotropic;
-  along_(spring) += along;
-  only_diagonal_ = only_diagonal_ && isotropic_(spring) == 0.0 && along_(spring) == 0.0;
+  const int k = plan_->slot[spring];
+  direction_.row(k) = direction;
+  isotropic_(k) += isotropic;
+  along_(k) += along;
+  only_diagonal_ = only_diagonal_ && isotropic_(k) == 0.0 && along_(k) == 0.0;
+}
+
+void StiffnessMatrix::set_zero() {
+  diagonal_.setZero();
+  isotropic_.setZero();
+  along_.setZero();
+  only_diagonal_ = true;
+}
+
+void StiffnessMatrix::scale(double weight) {
+  diagonal_ *= weight;
+  isotropic_ *= weight;
+  along_ *= weight;
 }
 
 void StiffnessMatrix::add_scaled(const StiffnessMatrix& other, double weight) {
   diagonal_ += weight * other.diagonal_;
+  if (other.only_diagonal_) return;
   direction_ = other.direction_;
   isotropic_ += weight * other.isotropic_;
   along_ += weight * other.along_;
-  only_diagonal_ = only_diagonal_ && other.only_diagonal_;
+  only_diagonal_ = false;
 }
 
 void StiffnessMatrix::multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& out) const {
   out = diagonal_.asDiagonal() * x;
   if (only_diagonal_) return;
-  const int* first = structure_.spring.col(0).data();
-  const int* second = structure_.spring.col(1).data();
-  const double *xx = x.col(0).data(), *xy = x.col(1).data(), *xz = x.col(2).data();
-  const double *ux = direction_.col(0).data(), *uy = direction_.col(1).data(), *uz = direction_.col(2).data();
-  double *ox = out.col(0).data(), *oy = out.col(1).data(), *oz = out.col(2).data();
-  for (int s = 0; s < structure_.springs(); ++s) {
-    const int i = first[s], j = second[s];
-    const double dx = xx[i] - xx[j], dy = xy[i] - xy[j], dz = xz[i] - xz[j];
-    const double a = isotropic_[s], b = along_[s] * (ux[s] * dx + uy[s] * dy + uz[s] * dz);
-    const double bx = a * dx + b * ux[s], by = a * dy + b * uy[s], bz = a * dz + b * uz[s];
-    ox[i] += bx, oy[i] += by, oz[i] += bz;
-    ox[j] -= bx, oy[j] -= by, oz[j] -= bz;
-  }
+  add_product(*plan_, columns(), x, out);
+}
+
+BlockColumns StiffnessMatrix::columns() const {
+  return {direction_.col(0).data(), direction_.col(1).data(), direction_.col(2).data(), isotropic_.data(),
+          along_.data()};
+}
+
+void StiffnessMatrix::diagonal_blocks(Eigen::MatrixX3d& straight, Eigen::MatrixX3d& mixed) const {
+  straight = diagonal_.replicate<1, 3>();
+  mixed.setZero(straight.rows(), 3);
+  if (!only_diagonal_) add_diagonal_blocks(*plan_, columns(), straight, mixed);
 }
 
 namespace {
@@ -51,23 +66,20 @@ Eigen::Matrix3d block(const Eigen::Vector3d& direction, double isotropic, double
   return isotropic * Eigen::Matrix3d::Identity() + along * direction * direction.transpose();
 }
 
-}  // namespace
-
-Eigen::MatrixX3d StiffnessMatrix::diagonal_blocks() const {
-  Eigen::MatrixX3d blocks = Eigen::MatrixX3d::Zero(3 * structure_.particles(), 3);
-  for (int i = 0; i < structure_.particles(); ++i)
-    blocks.middleRows<3>(3 * i) = diagonal_(i) * Eigen::Matrix3d::Identity();
-  for (int s = 0; s < structure_.springs(); ++s) {
-    const Eigen::Matrix3d b = block(direction_.row(s), isotropic_(s), along_(s));
-    blocks.middleRows<3>(3 * structure_.spring(s, 0)) += b;
-    blocks.middleRows<3>(3 * structure_.spring(s, 1)) += b;
-  }
-  return blocks;
+Eigen::Matrix3d symmetric(const Eigen::RowVector3d& straight, const Eigen::RowVector3d& mixed) {
+  Eigen::Matrix3d matrix = straight.asDiagonal();
+  matrix(0, 1) = matrix(1, 0) = mixed(0);
+  matrix(0, 2) = matrix(2, 0) = mixed(1);
+  matrix(1, 2) = matrix(2, 1) = mixed(2);
+  return matrix;
 }
+
+}  // namespace
 
 Eigen::SparseMatrix<double> StiffnessMatrix::assemble(bool eliminate_pins) const {
   const int n = structure_.particles();
-  const Eigen::MatrixX3d diagonal = diagonal_blocks();
+  Eigen::MatrixX3d straight, mixed;
+  diagonal_blocks(straight, mixed);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * n + 18 * structure_.springs());
   const auto add = [&](int i, int j, const Eigen::Matrix3d& b) {
@@ -76,12 +88,11 @@ Eigen::SparseMatrix<double> StiffnessMatrix::assemble(bool eliminate_pins) const
   };
   const auto eliminated = [&](int i) { return eliminate_pins && structure_.pinned(i); };
   for (int i = 0; i < n; ++i)
-    add(i, i,
-        eliminated(i) ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : Eigen::Matrix3d(diagonal.middleRows<3>(3 * i)));
+    add(i, i, eliminated(i) ? Eigen::Matrix3d::Identity().eval() : symmetric(straight.row(i), mixed.row(i)));
   for (int s = 0; s < structure_.springs(); ++s) {
-    const int i = structure_.spring(s, 0), j = structure_.spring(s, 1);
+    const int i = structure_.spring(s, 0), j = structure_.spring(s, 1), k = plan_->slot[s];
     if (eliminated(i) || eliminated(j)) continue;
-    const Eigen::Matrix3d b = -block(direction_.row(s), isotropic_(s), along_(s));
+    const Eigen::Matrix3d b = -block(direction_.row(k), isotropic_(k), along_(k));
     add(i, j, b);
     add(j, i, b);
   }
@@ -96,11 +107,12 @@ Eigen::SparseMatrix<double> StiffnessMatrix::assemble_one_axis(bool eliminate_pi
   std::vector<Eigen::Triplet<double>> entries;
   for (int s = 0; s < structure_.springs(); ++s) {
     const int i = structure_.spring(s, 0), j = structure_.spring(s, 1);
-    diagonal(i) += isotropic_(s);
-    diagonal(j) += isotropic_(s);
+    const double a = isotropic_(plan_->slot[s]);
+    diagonal(i) += a;
+    diagonal(j) += a;
     if (eliminate_pins && (structure_.pinned(i) || structure_.pinned(j))) continue;
-    entries.emplace_back(i, j, -isotropic_(s));
-    entries.emplace_back(j, i, -isotropic_(s));
+    entries.emplace_back(i, j, -a);
+    entries.emplace_back(j, i, -a);
   }
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, eliminate_pins && structure_.pinned(i) ? 1.0 : diagonal(i));
   Eigen::SparseMatrix<double> matrix(n, n);

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
 
+#include "sim/stiffness_product.h"
 #include "sim/structure.h"
 
 namespace billow::sim {
@@ -23,13 +25,18 @@ class StiffnessMatrix {
   void add_diagonal(int particle, double value) { diagonal_(particle) += value; }
   void add_block(int spring, const Eigen::Vector3d& direction, double isotropic, double along);
 
+  /// Everything zero again, its memory kept.
+  void set_zero();
+  /// this *= weight.
+  void scale(double weight);
   /// this += weight other, both linearised at the same state.
   void add_scaled(const StiffnessMatrix& other, double weight);
 
   /// out (n x 3) = A x, pinned particles included as ordinary rows.
   void multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& out) const;
-  /// The 3 x 3 blocks of the diagonal, one particle after another, each stacked row by row (3n x 3).
-  Eigen::MatrixX3d diagonal_blocks() const;
+  /// The 3 x 3 blocks of the diagonal, a row for each particle: xx, yy, zz in `straight` (n x 3) and xy, xz, yz in
+  /// `mixed` (n x 3).
+  void diagonal_blocks(Eigen::MatrixX3d& straight, Eigen::MatrixX3d& mixed) const;
   /// The same matrix assembled, particle-major (row 3 i + axis); the pattern is the same for every state. Rows and
   /// columns of pinned particles are replaced by the identity when `eliminate_pins`.
   Eigen::SparseMatrix<double> assemble(bool eliminate_pins) const;
@@ -37,12 +44,15 @@ class StiffnessMatrix {
   Eigen::SparseMatrix<double> assemble_one_axis(bool eliminate_pins) const;
 
  private:
+  BlockColumns columns() const;
+
   const Structure& structure_;
-  Eigen::VectorXd diagonal_;    // (n)
-  Eigen::MatrixX3d direction_;  // (m x 3)
-  Eigen::VectorXd isotropic_;   // (m) a
-  bool only_diagonal_ = true;   // all blocks are zero, as where only friction damps
-  Eigen::VectorXd along_;       // (m) b
+  std::shared_ptr<const ProductPlan> plan_;  // copies share it
+  Eigen::VectorXd diagonal_;                 // (n)
+  Eigen::MatrixX3d direction_;               // (m x 3) u, by the plan's slot, as are
+  Eigen::VectorXd isotropic_;                // (m)     a
+  Eigen::VectorXd along_;                    // (m)     b
+  bool only_diagonal_ = true;                // all blocks are zero, as where only friction damps
 };
 
 /// K and C of a structure about one state: force = -K dx - C dv.

@@ -187,7 +187,8 @@ struct System {
     const auto precondition = [&](const Eigen::MatrixX3d& in, Eigen::MatrixX3d& out) {
       out = in.reshaped().cwiseQuotient(matrix.diagonal()).reshaped(in.rows(), 3);
     };
-    return conjugate_gradient(multiply, precondition, right, tolerance, max_iterations, x);
+    ConjugateGradientSpace space;
+    return conjugate_gradient(multiply, precondition, right, tolerance, max_iterations, x, space);
   }
   double residual(const Eigen::MatrixX3d& x) const { return (right.reshaped() - matrix * x.reshaped()).norm(); }
   Eigen::MatrixXd matrix;
