@@ -93,8 +93,9 @@ TEST_F(StudyCommand, MarksADivergedRunAndGoesOn) {
 }
 
 TEST_F(StudyCommand, KeepsAFailedRunsLastWords) {
-  folder_.write("study.yaml", test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
-                                           "{name: lambda, key: solver.method, values: [fb_euler, forward_euler]}"));
+  const std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
+                                        "{name: lambda, key: solver.method, values: [fb_euler, forward_euler]}");
+  folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 0.2, solver.filter: none"));
   const ToolResult result = study();
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(record()["runs"][1]["status"], "failed");
