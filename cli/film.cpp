@@ -1,8 +1,8 @@
 // The film's three stages and the queues between them.
 #include "cli/film.h"
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -20,17 +20,30 @@ namespace billow::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
-/// Adds the time until it goes out of scope to `total` [s].
+/// Adds the time until it goes out of scope to `cost`: the wall's, and the thread's or the process's processor time.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& total) : total_(total), begin_(Clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  explicit Stopwatch(StageCost& cost, clockid_t cpu_clock = CLOCK_THREAD_CPUTIME_ID)
+      : cost_(cost),
+        cpu_clock_(cpu_clock),
+        wall_begin_(seconds_of(CLOCK_MONOTONIC)),
+        cpu_begin_(seconds_of(cpu_clock)) {}
+  ~Stopwatch() {
+    cost_.wall += seconds_of(CLOCK_MONOTONIC) - wall_begin_;
+    cost_.cpu += seconds_of(cpu_clock_) - cpu_begin_;
+  }
+  Stopwatch(const Stopwatch&) = delete;
 
  private:
-  double& total_;
-  Clock::time_point begin_;
+  StageCost& cost_;
+  clockid_t cpu_clock_;
+  double wall_begin_, cpu_begin_;
 };
 
 /// The sample times of a run in order: frames, strip columns, samples of the spectrum, or several at once.
@@ -152,22 +165,23 @@ class Film {
         progress_(progress),
         strip_rows_(scene, simulation.structure()),
         images_(static_cast<std::size_t>(2 * threads)),
-        error_([this] { snapshots_.abort(), images_.abort(); }) {}
+        error_([this] { snapshots_.abort(), images_.abort(); }),
+        report_{.frames = FrameLog(folder.record())} {}
 
   FilmReport run() {
     {
-      const Stopwatch watch(report_.wall_seconds);
+      const Stopwatch watch(report_.total, CLOCK_PROCESS_CPUTIME_ID);
       std::vector<std::thread> encoders;
-      std::vector<double> encode_seconds(threads_, 0.0);
+      std::vector<StageCost> encode_cost(threads_);
       std::vector<long> written(threads_, 0);
       std::thread simulator([this] { error_.guard([this] { simulate(); }), snapshots_.close(); });
       for (int t = 0; t < threads_; ++t)
-        encoders.emplace_back([&, t] { error_.guard([&] { encode(encode_seconds[t], written[t]); }); });
+        encoders.emplace_back([&, t] { error_.guard([&] { encode(encode_cost[t], written[t]); }); });
       error_.guard([this] { draw(); });
       images_.close();
       simulator.join();
       for (std::thread& encoder : encoders) encoder.join();
-      for (const double seconds : encode_seconds) report_.encode_seconds += seconds;
+      for (const StageCost& cost : encode_cost) report_.encode.wall += cost.wall, report_.encode.cpu += cost.cpu;
       for (const long images : written) report_.images_written += images;
     }
     error_.rethrow();
@@ -204,14 +218,15 @@ class Film {
       if ((report_.interrupted_by = interrupted_by()) != 0) return;
       std::optional<Snapshot> snapshot;
       {
-        const Stopwatch watch(report_.simulate_seconds);
+        const Stopwatch watch(report_.simulate);
         const sim::State state = solver.sample(sample->time);
         if (sample->column) strip->add_column(strip_rows_.of(state.velocity));
         if (sample->spectrum) spectrum->add(state);
         if (sample->image) spectrum->show(state);
         if (sample->frame && *sample->frame >= range_.first) {
-          report_.frames.push_back(record_of(simulation_, *sample->frame, state));
-          report_.series.add(report_.frames.back());
+          const FrameRecord record = record_of(simulation_, *sample->frame, state);
+          report_.frames.add(record);
+          report_.series.add(record);
           snapshot = {*sample->frame, sample->time, simulation_.surfaces(state)};
         }
       }
@@ -234,7 +249,7 @@ class Film {
         }
         FinishedImage finished{folder_.frame(view, snapshot->frame), {}};
         {
-          const Stopwatch watch(report_.draw_seconds);
+          const Stopwatch watch(report_.draw);
           finished.image = renderer.draw(view, snapshot->bodies);
         }
         if (!images_.push(std::move(finished))) return;
@@ -244,9 +259,9 @@ class Film {
     progress_.end();
   }
 
-  void encode(double& seconds, long& written) {
+  void encode(StageCost& cost, long& written) {
     while (const auto finished = images_.pop()) {
-      const Stopwatch watch(seconds);
+      const Stopwatch watch(cost);
       render::write_png(finished->file, finished->image);
       ++written;
     }
@@ -276,7 +291,7 @@ long frame_count(const Scene& scene) {
 Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress) {
   Survey result;
   result.bounds.velocity_scale = 0.0;
-  const Stopwatch watch(result.seconds);
+  const Stopwatch watch(result.cost, CLOCK_PROCESS_CPUTIME_ID);
   const auto solver = simulation.make_solver(choice);
   const long frames = frame_count(scene);
   Timeline timeline(scene, frames);
@@ -296,6 +311,11 @@ Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice
   progress.end();
   if (result.bounds.velocity_scale == 0.0) result.bounds.velocity_scale = 1.0;
   return result;
+}
+
+double best_wall_seconds(const Survey& survey, const FilmReport& report, int cores) {
+  const double packed = (survey.cost.cpu + report.total.cpu) / cores;
+  return std::max(packed, std::min(survey.cost.wall, survey.cost.cpu) + std::max(report.simulate.cpu, report.draw.cpu));
 }
 
 FilmReport make_film(const Scene& scene, const Simulation& simulation, const StepChoice& choice,

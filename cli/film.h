@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/frame_log.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/run_series.h"
@@ -22,33 +23,32 @@ struct FrameRange {
 /// Number of frames of a scene: those whose time lies before its duration.
 long frame_count(const Scene& scene);
 
+/// What one stage of a run took.
+struct StageCost {
+  double wall = 0.0;  // [s] at work, waiting for its queues left out; of all its threads together
+  double cpu = 0.0;   // [s] of the processor, by its own threads
+};
+
 /// What a run needs to know of itself before its first frame.
 struct Survey {
   render::RunBounds bounds;
-  double seconds = 0.0;
-};
-
-/// Energy and momentum at one frame.
-struct FrameRecord {
-  long frame = 0;
-  double time = 0.0;                                  // [s]
-  double kinetic = 0.0, potential = 0.0;              // [J]
-  Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
+  StageCost cost;
 };
 
 struct FilmReport {
-  std::vector<FrameRecord> frames;
-  RunSeries series;  // of the same frames
+  FrameLog frames;
+  RunSeries series = {};  // of the same frames
   long frames_drawn = 0, images_written = 0, images_kept = 0;
   int strip_columns = 0;
   long steps = 0;
   double simulated_time = 0.0;  // [s]
-  sim::SolveCounts solves;
+  sim::SolveCounts solves = {};
   double velocity_range = 0.0;  // [m/s]
-  std::string gl;
-  double simulate_seconds = 0.0, draw_seconds = 0.0, encode_seconds = 0.0, wall_seconds = 0.0;
-  int interrupted_by = 0;                 // the signal that ended the run early, or 0
-  std::optional<std::string> divergence;  // the message, when the run diverged
+  std::string gl = {};
+  StageCost simulate = {}, draw = {}, encode = {};
+  StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
+  int interrupted_by = 0;  // the signal that ended the run early, or 0
+  std::optional<std::string> divergence = {};  // the message, when the run diverged
 };
 
 /// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the
@@ -56,6 +56,10 @@ struct FilmReport {
 /// camera, the shadow and the velocity colours are then the same for every frame, whichever frames are drawn.
 /// A divergence ends the survey early without an error; the film then meets it too.
 Survey survey(const Scene& scene, const Simulation& simulation, const StepChoice& choice, Progress& progress);
+
+/// The least time [s] in which `cores` could have done the run's work: all of it, perfectly packed, or the chain that
+/// no packing can shorten: the survey, then the longer of the two stages that take one frame after another.
+double best_wall_seconds(const Survey& survey, const FilmReport& report, int cores);
 
 /// Draws the frames of `range` and the strip into `folder`. The simulation, the drawing and `threads` encoders overlap;
 /// queues between them are bounded. A divergence or a signal ends the film after the frames before it are written; any

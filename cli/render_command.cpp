@@ -97,8 +97,8 @@ void say_end(const FilmReport& report, const Survey& survey, const OutputFolder&
   fmt::print(stderr,
              "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
              "{:.1f}, encode {:.1f}; the last three overlap)\n",
-             report.images_written, kept, strip, folder.path().string(), survey.seconds + report.wall_seconds,
-             survey.seconds, report.simulate_seconds, report.draw_seconds, report.encode_seconds);
+             report.images_written, kept, strip, folder.path().string(), survey.cost.wall + report.total.wall,
+             survey.cost.wall, report.simulate.wall, report.draw.wall, report.encode.wall);
 }
 
 }  // namespace
@@ -128,8 +128,7 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
   render::write_file_atomically(folder.record(), begun_record(scene, options.command));
   const FilmReport report =
       make_film(scene, simulation, choice, found.bounds, range_of(options, scene), folder, threads, progress);
-  render::write_file_atomically(folder.record(),
-                                finished_record(scene, options.command, simulation, choice, found, report));
+  write_finished_record(folder.record(), scene, options.command, simulation, choice, found, report);
   const Warnings late = warnings_after(scene, simulation, report);
   say(late);
   warnings.insert(warnings.end(), late.begin(), late.end());

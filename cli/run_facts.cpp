@@ -44,8 +44,8 @@ std::string solves_text(const sim::SolveCounts& solves) {
 std::string seconds_text(const Survey& survey, const FilmReport& report) {
   return fmt::format(
       "{:.1f} s: survey {:.1f}; then side by side simulate {:.1f}, draw {:.1f}, encode {:.1f} over all threads",
-      survey.seconds + report.wall_seconds, survey.seconds, report.simulate_seconds, report.draw_seconds,
-      report.encode_seconds);
+      survey.cost.wall + report.total.wall, survey.cost.wall, report.simulate.wall, report.draw.wall,
+      report.encode.wall);
 }
 
 std::string images_text(const FilmReport& report) {

@@ -1,9 +1,12 @@
 // Writing run.json.
 #include "cli/run_record.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/version.h"
+#include "render/atomic_file.h"
 
 namespace billow::cli {
 
@@ -52,14 +55,29 @@ Json frame_record(const FrameRecord& f) {
           {"angular_momentum", list(f.angular_momentum)}};
 }
 
+// The stages' own threads, and what the least wall time on these cores would have been.
+Json processor_record(const Survey& survey, const FilmReport& report) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return {{"survey", survey.cost.cpu},
+          {"simulate", report.simulate.cpu},
+          {"draw", report.draw.cpu},
+          {"encode", report.encode.cpu},
+          {"total", survey.cost.cpu + report.total.cpu},
+          {"cores", cores},
+          {"best_wall", best_wall_seconds(survey, report, cores)}};
+}
+
 }  // namespace
 
 std::string begun_record(const Scene& scene, const std::string& command) {
   return begun(scene, command, "running").dump(2) + "\n";
 }
 
-std::string finished_record(const Scene& scene, const std::string& command, const Simulation& simulation,
-                            const StepChoice& choice, const Survey& survey, const FilmReport& report) {
+namespace {
+
+// Everything but the frames.
+Json finished(const Scene& scene, const std::string& command, const Simulation& simulation, const StepChoice& choice,
+              const Survey& survey, const FilmReport& report) {
   const char* status = report.divergence ? "diverged" : report.interrupted_by ? "interrupted" : "done";
   Json json = begun(scene, command, status);
   if (report.divergence) json["divergence"] = *report.divergence;
@@ -70,15 +88,37 @@ std::string finished_record(const Scene& scene, const std::string& command, cons
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;
   json["strip_columns"] = report.strip_columns;
-  json["seconds"] = {{"survey", survey.seconds},
-                     {"simulate", report.simulate_seconds},
-                     {"draw", report.draw_seconds},
-                     {"encode", report.encode_seconds},
-                     {"wall", survey.seconds + report.wall_seconds}};
+  json["seconds"] = {{"survey", survey.cost.wall},
+                     {"simulate", report.simulate.wall},
+                     {"draw", report.draw.wall},
+                     {"encode", report.encode.wall},
+                     {"wall", survey.cost.wall + report.total.wall}};
+  json["processor_seconds"] = processor_record(survey, report);
   json["gl"] = report.gl;
-  json["frames"] = Json::array();
-  for (const FrameRecord& frame : report.frames) json["frames"].push_back(frame_record(frame));
-  return json.dump(1) + "\n";
+  return json;
+}
+
+void append(render::AtomicFile& file, std::string_view text) {
+  if (!file.write(text.data(), text.size())) file.fail();
+}
+
+}  // namespace
+
+// The frames go through memory one by one, so that a film's length does not show there.
+void write_finished_record(const std::filesystem::path& file, const Scene& scene, const std::string& command,
+                           const Simulation& simulation, const StepChoice& choice, const Survey& survey,
+                           const FilmReport& report) {
+  render::AtomicFile output(file);
+  const std::string head = finished(scene, command, simulation, choice, survey, report).dump(1);
+  append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
+  append(output, ",\n \"frames\": [");
+  const char* separator = "\n  ";
+  for (const FrameRecord& frame : report.frames) {
+    append(output, separator + frame_record(frame).dump());
+    separator = ",\n  ";
+  }
+  append(output, "\n ]\n}\n");
+  output.commit();
 }
 
 }  // namespace billow::cli

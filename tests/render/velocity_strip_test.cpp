@@ -47,7 +47,7 @@ TEST(VelocityStrip, IsPixelExactInTheGivenOrder) {
   expect_exact(image, order, 2.5);
 }
 
-// 7000 columns of 4000 particles are 84 MB: more than one block of the transposition.
+// 7000 columns of 4000 particles are 84 MB: many blocks of rows, and a last tile that is not full.
 TEST(VelocityStrip, IsExactAcrossItsBlocks) {
   const test::TemporaryFolder folder;
   std::vector<int> order(4000);
