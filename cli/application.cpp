@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "cli/command_text.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/suggestion.h"
 #include "cli/version.h"
 #include "sim/error.h"
 
@@ -169,6 +172,15 @@ std::string typed_command(int argc, char** argv) {
   return command_line(words);
 }
 
+// CLI11 takes a misspelt command for a missing one.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  std::vector<std::string_view> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return std::nullopt;
+  return fmt::format("unknown command '{}'{}", argv[1], suggestion(argv[1], known, "commands are"));
+}
+
 int report(const char* message, int status) {
   std::fputs((std::string(message) + "\n").c_str(), stderr);  // fputs: a closed stderr must not become another error
   return status;
@@ -199,6 +211,7 @@ int run(int argc, char** argv) {
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);
+  if (const auto fault = unknown_command(app, argc, argv)) return report(fault->c_str(), exit_usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -28,6 +28,12 @@ TEST_F(Commands, HelpAndVersionSucceed) {
   EXPECT_EQ(run({}).status, 2);
 }
 
+TEST_F(Commands, NamesTheOneThatWasMeant) {
+  const ToolResult result = run({"stabilty", "scene.yaml"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.errors, "unknown command 'stabilty'; did you mean 'stability'?\n");
+}
+
 TEST_F(Commands, CheckPrintsASceneThatChecksAgain) {
   const ToolResult first = run({"check", "scene.yaml"});
   ASSERT_EQ(first.status, 0) << first.errors;
