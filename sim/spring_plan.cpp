@@ -33,10 +33,6 @@ LocalSprings local_springs(const Structure& structure, const Body& body) {
   return local;
 }
 
-bool is_damped(const Structure& structure, const Body& body) {
-  return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
-}
-
 // The springs as bands, if those of each stride are of one material; otherwise bands without strides.
 SpringBands make_bands(const Structure& structure, const Body& body, const LocalSprings& local) {
   SpringBands bands{

@@ -33,6 +33,10 @@ void append(Structure& whole, const Structure& part, int particles, int springs)
 
 }  // namespace
 
+bool is_damped(const Structure& structure, const Body& body) {
+  return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
+}
+
 Structure merge(const std::vector<Structure>& parts) {
   int particles = 0, springs = 0;
   for (const Structure& part : parts) particles += part.particles(), springs += part.springs();

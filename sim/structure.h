@@ -50,6 +50,9 @@ struct Structure {
   bool pinned(int particle) const { return inverse_mass(particle) == 0.0; }
 };
 
+/// Whether any spring of `body` damps.
+bool is_damped(const Structure& structure, const Body& body);
+
 /// Several structures as one, particles and springs concatenated in order; every solver then steps them together.
 Structure merge(const std::vector<Structure>& parts);
 

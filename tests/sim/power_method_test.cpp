@@ -17,6 +17,7 @@ namespace {
 
 using test::dense_dynamics;
 using test::fixed_chain;
+using test::spectral_radius;
 using test::grid;
 using test::with_uneven_masses;
 
