@@ -136,7 +136,9 @@ TEST_F(StudyCommand, FindsAFaultBeforeTheFirstRun) {
   folder_.write("study.yaml", test::edited(plot_study, "values: [0.5, 1]", "values: [0.5, -1]"));
   const ToolResult result = study();
   EXPECT_EQ(result.status, 4);
-  EXPECT_EQ(result.errors, "study.yaml:5:61: lambda is -1 per mean rest length; it must be above 0 and at most 1000 per mean rest length\n");
+  EXPECT_EQ(
+      result.errors,
+      "study.yaml:5:61: lambda is -1 per mean rest length; it must be above 0 and at most 1000 per mean rest length\n");
   EXPECT_FALSE(fs::exists(made("")));
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 using test::dense_dynamics;
 using test::fixed_chain;
-using test::spectral_radius;
 using test::grid;
+using test::spectral_radius;
 using test::with_uneven_masses;
 
 EigenvalueEstimate k0(const Structure& structure, const PowerOptions& options = {}) {

@@ -1,7 +1,6 @@
 // The vector passes against the plain loop over springs, and against themselves: the same bits on every instruction
 // set that this machine has and with any number of threads.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -15,12 +14,14 @@
 #include "sim/random.h"
 #include "sim/spring_force.h"
 #include "sim/spring_plan.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/structures.h"
 
 namespace billow::sim {
 namespace {
 
 using test::grid;
+using test::on_every_instruction_set;
 using test::shaken_state;
 
 /// The structure with its particles numbered at random, like a mesh from a careless exporter.
@@ -83,19 +84,6 @@ State shaken(const Structure& structure) {
   State state = shaken_state(structure, 0.3, 1.0);
   state.position.row(1) = state.position.row(0);  // a spring of zero length
   return state;
-}
-
-/// Runs `work` on each instruction set in turn, named to a failing test.
-template <class Work>
-void on_every_instruction_set(const Work& work) {
-  for (const std::int64_t set : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(set));
-    hwy::SetSupportedTargetsForTest(set);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    work();
-    hwy::SetSupportedTargetsForTest(0);
-  }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(SpringPlan, TakesRegularNumberingsAsBandsAndOthersAsSlices) {
