@@ -127,8 +127,9 @@ std::optional<double> Simulation::certified_limit(const sim::Linearisation& line
   return certified.unlimited ? std::nullopt : std::make_optional(certified.step);
 }
 
-void Simulation::find_limits(StepChoice& choice) const {
+StepChoice Simulation::find_limits() const {
   const SolverSpec& solver = scene_.solver;
+  StepChoice choice;
   const sim::Linearisation at_rest = sim::linearise_at_rest(structure_);
   choice.k0 = sim::max_eigenvalue(structure_, at_rest.stiffness);
   if (filter_)
@@ -137,14 +138,15 @@ void Simulation::find_limits(StepChoice& choice) const {
   choice.certified = certified_limit(at_rest);
   if (choice.certified && solver.step_rule != StepRule::fixed)  // a given step is only compared with the first
     choice.any_shape = certified_limit(sim::linearise_any_shape(structure_));
+  const bool any_shape_binds = choice.any_shape && *choice.any_shape < *choice.certified;
+  choice.limit = any_shape_binds ? choice.any_shape : choice.certified;
+  return choice;
 }
 
 StepChoice Simulation::choose_step() const {
   const SolverSpec& solver = scene_.solver;
-  StepChoice choice;
-  find_limits(choice);
-  const bool any_shape_binds = choice.any_shape && *choice.any_shape < *choice.certified;
-  choice.limit = any_shape_binds ? choice.any_shape : choice.certified;
+  StepChoice choice = find_limits();
+  const bool any_shape_binds = choice.any_shape && choice.limit == choice.any_shape;
   if (solver.step_rule == StepRule::fixed) return choice.step = solver.step, choice.bound = "given", choice;
   const bool by_paper = solver.step_rule == StepRule::paper;
   const std::optional<double> limit = by_paper ? choice.paper : choice.limit;

@@ -52,6 +52,8 @@ class Simulation {
 
   /// A solver at the scene's start, taking steps of `choice`.
   std::unique_ptr<sim::Solver> make_solver(const StepChoice& choice) const;
+  /// The limits alone, no step chosen: also where there is none to choose.
+  StepChoice find_limits() const;
   /// The step that the scene asks for. Schemes without a limit take the paper's
   /// 0.01 s. Throws InputError when every step grows.
   StepChoice choose_step() const;
@@ -59,7 +61,6 @@ class Simulation {
  private:
   Eigen::Vector3d camera_path(const sim::State& state) const;
   std::optional<double> certified_limit(const sim::Linearisation& linearisation) const;
-  void find_limits(StepChoice& choice) const;
 
   const Scene& scene_;
   sim::Structure structure_;

@@ -42,7 +42,7 @@ void add_limits(RunResult& result, const Scene& scene, const Simulation& simulat
   add_limit(result, "paper", choice.paper, unfiltered);
   add_limit(result, "certified", choice.certified, unfiltered);
   add_limit(result, "any_shape", choice.any_shape, unfiltered);
-  add_limit(result, "step", choice.step, unfiltered);
+  if (choice.step > 0.0) add_limit(result, "step", choice.step, unfiltered);
 }
 
 void add_measured(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
@@ -124,7 +124,9 @@ RunResult perform_run(const Study& study, const StudyRun& run, const std::filesy
   const Scene scene = read_scene(study.scene, overrides_of(study, run));
   RunResult result{RunStatus::done, run_hash(study, scene), command_of(study, run), "", scene.effective, {}};
   const Simulation simulation(scene);
-  const StepChoice choice = simulation.choose_step();
+  // A scheme that grows at every step has limits to report, but no step to run with.
+  const bool steps = study.measures.render || study.measures.repeats > 0;
+  const StepChoice choice = steps ? simulation.choose_step() : simulation.find_limits();
   add_limits(result, scene, simulation, choice);
   try {
     if (study.measures.measured) add_measured(result, scene, simulation, choice);
