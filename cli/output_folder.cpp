@@ -70,16 +70,20 @@ void check_same_run(const fs::path& record, const std::string& scene_hash) {
 
 std::string_view name(render::View view) { return view == render::View::textured ? "textured" : "velocity"; }
 
-OutputFolder::OutputFolder(fs::path folder, Existing existing, const std::string& scene_hash,
-                           const std::vector<render::View>& views)
-    : folder_(std::move(folder)), views_(views), existing_(existing) {
-  const bool empty = is_empty_or_missing(folder_);
+void check_output_folder(const fs::path& folder, Existing existing, const std::string& scene_hash) {
+  const bool empty = is_empty_or_missing(folder);
   if (!empty && existing == Existing::refuse)
     throw OutputError(
         fmt::format("{} already holds files; use --overwrite to replace a run there, --resume to finish "
                     "it, or -o for another folder",
-                    folder_.string()));
-  if (!empty && existing == Existing::resume) check_same_run(record(), scene_hash);
+                    folder.string()));
+  if (!empty && existing == Existing::resume) check_same_run(folder / "run.json", scene_hash);
+}
+
+OutputFolder::OutputFolder(fs::path folder, Existing existing, const std::string& scene_hash,
+                           const std::vector<render::View>& views)
+    : folder_(std::move(folder)), views_(views), existing_(existing) {
+  check_output_folder(folder_, existing, scene_hash);
   make_folder(folder_);
 }
 

@@ -13,12 +13,15 @@ namespace billow::cli {
 /// What to do with a folder that already holds something.
 enum class Existing { refuse, overwrite, resume };
 
+/// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run whose run.json
+/// names `scene_hash` and it is resume. Changes nothing.
+void check_output_folder(const std::filesystem::path& folder, Existing existing, const std::string& scene_hash);
+
 /// DIR of `billow render`: textured/, velocity/, velocity_strip.png, run.json, index.html; with a spectrum also
 /// velocity_image.png, velocity_spectrum.png, spectrum.csv.
 class OutputFolder {
  public:
-  /// Makes the folder. Throws OutputError when it holds anything and `existing` is refuse, or when it cannot be made.
-  /// `resume` keeps frames of a run whose run.json names `scene_hash`, and refuses any other folder.
+  /// Makes the folder. Throws OutputError as check_output_folder, or when it cannot be made.
   OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
                const std::vector<render::View>& views);
 

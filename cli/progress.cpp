@@ -56,6 +56,12 @@ void Progress::print_line(long done, double time) {
   std::fflush(stderr);
 }
 
+void Progress::say(const std::string& line) const {
+  const std::string text = style_ == ProgressStyle::json ? nlohmann::json{{"message", line}}.dump() : line;
+  std::fputs((text + "\n").c_str(), stderr);
+  std::fflush(stderr);
+}
+
 void Progress::end() {
   if (redraw_) std::fputs("\r\033[K", stderr);
 }

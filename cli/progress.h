@@ -20,6 +20,8 @@ class Progress {
   void begin(std::string_view stage, long total);
   /// `done` frames of the stage are finished, up to simulated time `time` [s].
   void update(long done, double time);
+  /// A line of its own, before or after a stage; with `json` an object {"message": …} like every other line.
+  void say(const std::string& line) const;
   /// Ends the stage: a redrawn line is wiped.
   void end();
 

@@ -33,10 +33,10 @@ FrameRange range_of(const RenderOptions& options, const Scene& scene) {
   return *options.frames;
 }
 
-void say_start(const Simulation& simulation, const Scene& scene, const StepChoice& choice) {
-  fmt::print(stderr, "{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})\n", scene.file.string(),
-             simulation.structure().particles(), simulation.structure().springs(), choice.k0.value,
-             sim::name(scene.solver.method), choice.step, choice.bound);
+void say_start(const Progress& progress, const Simulation& simulation, const Scene& scene, const StepChoice& choice) {
+  progress.say(fmt::format("{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})",
+                           scene.file.string(), simulation.structure().particles(), simulation.structure().springs(),
+                           choice.k0.value, sim::name(scene.solver.method), choice.step, choice.bound));
 }
 
 using Warnings = std::vector<std::string>;
@@ -50,8 +50,8 @@ Warnings warnings_before(const StepChoice& choice) {
   return warnings;
 }
 
-void say(const Warnings& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+void say(const Progress& progress, const Warnings& warnings) {
+  for (const std::string& warning : warnings) progress.say("warning: " + warning);
 }
 
 // How far the energy climbed above its lowest value so far, as a share of what the run can turn over.
@@ -90,22 +90,24 @@ Warnings warnings_after(const Scene& scene, const Simulation& simulation, const 
   return warnings;
 }
 
-void say_end(const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
+void say_end(const Progress& progress, const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
   const std::string strip =
       report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
-  fmt::print(stderr,
-             "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
-             "{:.1f}, encode {:.1f}; the last three overlap)\n",
-             report.images_written, kept, strip, folder.path().string(), survey.cost.wall + report.total.wall,
-             survey.cost.wall, report.simulate.wall, report.draw.wall, report.encode.wall);
+  progress.say(fmt::format(
+      "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
+      "{:.1f}, encode {:.1f}; the last three overlap)",
+      report.images_written, kept, strip, folder.path().string(), survey.cost.wall + report.total.wall,
+      survey.cost.wall, report.simulate.wall, report.draw.wall, report.encode.wall));
 }
 
 }  // namespace
 
 int render_command(const RenderOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
-  range_of(options, scene);  // a bad one is found before the step is certified
+  // What is wrong with these is found before the step is certified, which takes seconds.
+  range_of(options, scene);
+  check_output_folder(output_of(options), options.existing, scene.hash);
   const Simulation simulation(scene);
   return render_scene(scene, simulation, simulation.choose_step(), options);
 }
@@ -117,11 +119,11 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
                                           static_cast<std::size_t>(threads));
   catch_interrupts();
   OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
-  say_start(simulation, scene, choice);
-  Warnings warnings = warnings_before(choice);
-  say(warnings);
-
   Progress progress(options.progress);
+  say_start(progress, simulation, scene, choice);
+  Warnings warnings = warnings_before(choice);
+  say(progress, warnings);
+
   const Survey found = survey(scene, simulation, choice, progress);
   if (interrupted_by() != 0) return 128 + interrupted_by();
   folder.begin_run();
@@ -130,11 +132,11 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
       make_film(scene, simulation, choice, found.bounds, range_of(options, scene), folder, threads, progress);
   write_finished_record(folder.record(), scene, options.command, simulation, choice, found, report);
   const Warnings late = warnings_after(scene, simulation, report);
-  say(late);
+  say(progress, late);
   warnings.insert(warnings.end(), late.begin(), late.end());
   render::write_file_atomically(
       folder.page(), run_page_html(describe_run(scene, options.command, simulation, choice, found, report, warnings)));
-  say_end(report, found, folder);
+  say_end(progress, report, found, folder);
   if (report.interrupted_by) return 128 + report.interrupted_by;
   if (report.divergence) throw DivergenceError(*report.divergence);
   return exit_done;

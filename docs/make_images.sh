@@ -34,3 +34,12 @@ filters force
 filters velocity -D solver.filter.target=velocity
 ./billow render scenes/drape.yaml -o "$work/film" --progress none -D duration=5 -D strip.step=0.025 -D 'render.size=[64, 36]' -D 'render.views=[velocity]'
 cp "$work/film/velocity_strip.png" docs/images/drape_strip.png
+# The paper's figures, for docs/figures.md.
+mkdir -p docs/images/figures
+for figure in 4 5 6 8 9; do ./billow study "scenes/studies/figure-$figure.yaml" -o "$work/figure-$figure"; done
+for picture in figure-4/figure-4 figure-5/figure-5 figure-5/energy-by-frequency figure-6/figure-6 \
+  figure-6/velocity-symmetric figure-6/velocity-plain figure-6/force-conserving figure-8/figure-8-particles \
+  figure-8/figure-8-stiffness figure-9/figure-9; do
+  cp "$work/$picture.png" docs/images/figures/
+done
+one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.5, 3.4], look_at: [0, -0.3, 0.1], fov: 26}'

@@ -1,5 +1,6 @@
 // billow render from outside: what it writes, what it refuses, how it ends.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "render/png.h"
 #include "tests/support/golden.h"
@@ -77,6 +78,16 @@ TEST_F(RenderCommand, WritesFramesStripAndRecord) {
   EXPECT_NE(result.errors.find("wrote 22 images, velocity_strip.png (22 columns), run.json and index.html to film"),
             std::string::npos)
       << result.errors;
+}
+
+TEST_F(RenderCommand, SaysEverythingInJsonWhenAskedTo) {
+  const ToolResult result = run_tool({"render", "scene.yaml", "-o", "film", "--progress", "json"}, folder_.path());
+  ASSERT_EQ(result.status, 0) << result.errors;
+  std::istringstream lines(result.errors);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_TRUE(nlohmann::json::parse(line, nullptr, false).is_object()) << line;
+  EXPECT_GE(count, 2);
 }
 
 TEST_F(RenderCommand, ShowsTheFilmThatItShowedBefore) {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/png.h"
+#include "tests/support/browser.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/tool.h"
 
@@ -92,9 +93,19 @@ TEST_F(StudyCommand, MarksADivergedRunAndGoesOn) {
   EXPECT_NE(runs[1]["message"].get<std::string>().find("the simulation diverged at step"), std::string::npos);
 }
 
-TEST_F(StudyCommand, KeepsAFailedRunsLastWords) {
+TEST_F(StudyCommand, ReportsTheLimitsOfASchemeThatGrowsAtEveryStep) {
   const std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
-                                        "{name: lambda, key: solver.method, values: [fb_euler, forward_euler]}");
+                                        "{name: lambda, key: solver.filter, values: [none]}");
+  folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 0.2, solver.method: forward_euler"));
+  study();
+  EXPECT_EQ(record()["runs"][0]["status"], "done");
+  EXPECT_EQ(record()["runs"][0]["values"]["certified"], 0.0);
+}
+
+TEST_F(StudyCommand, KeepsAFailedRunsLastWords) {
+  std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
+                                  "{name: lambda, key: solver.method, values: [fb_euler, forward_euler]}");
+  text = test::edited(text, "render: false", "render: false, repeats: 1");
   folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 0.2, solver.filter: none"));
   const ToolResult result = study();
   EXPECT_EQ(result.status, 1);
@@ -122,6 +133,18 @@ pictures:
   }
   EXPECT_TRUE(fs::exists(made("curves.csv")));
   EXPECT_TRUE(fs::exists(made("runs/001-0.5/film/run.json")));
+}
+
+// Every picture loads, nothing complains, and the page says what the runs were.
+TEST_F(StudyCommand, MakesAPageThatABrowserOpens) {
+  ASSERT_EQ(study().status, 0);
+  const test::Screenshot page = test::screenshot(made(""), "index.html", 900, 1400);
+  EXPECT_TRUE(page.console.empty()) << page.console.front();
+  EXPECT_EQ(page.image.width, 900);
+  const std::string html = test::read_text(made("index.html"));
+  for (const char* part : {"limits.svg", "<td>0.5</td>", "results.csv", "billow study study.yaml --only 2"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("http"), std::string::npos) << "asks the network";
 }
 
 TEST_F(StudyCommand, LeavesOtherFoldersAlone) {
