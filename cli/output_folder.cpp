@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
-}
-
 bool is_empty_or_missing(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return true;
@@ -69,6 +63,12 @@ void check_same_run(const fs::path& record, const std::string& scene_hash) {
 }  // namespace
 
 std::string_view name(render::View view) { return view == render::View::textured ? "textured" : "velocity"; }
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
 
 void check_output_folder(const fs::path& folder, Existing existing, const std::string& scene_hash) {
   const bool empty = is_empty_or_missing(folder);

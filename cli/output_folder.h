@@ -13,6 +13,9 @@ namespace billow::cli {
 /// What to do with a folder that already holds something.
 enum class Existing { refuse, overwrite, resume };
 
+/// Makes the folder and those above it where they are missing. Throws OutputError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run whose run.json
 /// names `scene_hash` and it is resume. Changes nothing.
 void check_output_folder(const std::filesystem::path& folder, Existing existing, const std::string& scene_hash);

@@ -9,6 +9,7 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/output_folder.h"
 #include "cli/study.h"
 #include "cli/study_jobs.h"
 #include "cli/study_page.h"
@@ -57,12 +58,6 @@ const StudyRun& run_numbered(const Plan& plan, int number) {
   if (number > static_cast<int>(plan.runs.size()))
     throw InputError(fmt::format("--only {}: the study has runs 1 to {}", number, plan.runs.size()));
   return plan.runs[number - 1];
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
 }
 
 // A folder with other things in it is not written to.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <system_error>
 
 #include "cli/number_text.h"
 #include "cli/study.h"
@@ -261,6 +262,10 @@ Study read_study(const std::filesystem::path& file) {
   study.title = map.text("title", file.stem().string());
   study.about = map.text("about", "");
   study.scene = file.parent_path() / map.text("scene");
+  std::error_code error;
+  if (!std::filesystem::exists(study.scene, error))
+    fail_at(map.where("scene"),
+            fmt::format("there is no scene file {}; the path is relative to the study's folder", study.scene.string()));
   if (const Node* set = map.find("set")) study.base = read_changes(*set);
   read_axes(map, study);
   study.measures = read_measures(map);
