@@ -25,7 +25,7 @@ class BackwardEuler : public Integrator {
   explicit BackwardEuler(const IntegratorOptions& options) : options_(options) {}
 
   void step(const Structure& structure, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
+            const VelocityFilter* filter) override {
     if (!system_) prepare(structure);
     forces.linearise(state, 1.0, 0.0, JacobianForm::definite, *stiffness_);
     forces.evaluate(state, b_);
@@ -35,7 +35,7 @@ class BackwardEuler : public Integrator {
     form_system(structure, forces, state, h);
     options_.linear_solver == LinearSolver::cholesky ? solve_directly(structure) : solve_iteratively();
     state.velocity += change_;
-    if (velocity_known) velocity_known(state.position, state.velocity);
+    if (filter) filter->apply(state.position, state.velocity);
     state.position += h * state.velocity;
     state.time += h;
   }

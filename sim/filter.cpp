@@ -262,37 +262,94 @@ AlignedVector<double> Filter::arranged(const Weights& weights) const {
   return places;
 }
 
-// Into a second field that each thread keeps, which then changes places with the first.
-void Filter::apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const {
-  static thread_local Eigen::MatrixX3d filtered;
-  filtered.resize(field.rows(), 3);
+namespace {
+
+FilterColumns columns_of(const Eigen::MatrixX3d& in, Eigen::MatrixX3d& out) {
   FilterColumns columns{};
-  for (int axis = 0; axis < 3; ++axis)
-    columns.in[axis] = field.col(axis).data(), columns.out[axis] = filtered.col(axis).data();
+  for (int axis = 0; axis < 3; ++axis) columns.in[axis] = in.col(axis).data(), columns.out[axis] = out.col(axis).data();
+  return columns;
+}
+
+}  // namespace
+
+void Filter::run(const AlignedVector<double>& weights, const FilterColumns& columns) const {
   for (const FilterBands& bands : plan_.bands)
     for_each_range(bands.particles, band_group, least_part,
                    [&](int begin, int end) { filter_bands(bands, weights, columns, begin, end); });
   for (const FilterSlices& slices : plan_.slices)
     for_each_block(slices.particles, static_cast<int>(slices.block.size()),
                    [&](int block) { filter_slices(slices, weights, columns, block); });
+}
+
+// Into a second field that each thread keeps, which then changes places with the first.
+void Filter::apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const {
+  static thread_local Eigen::MatrixX3d filtered;
+  filtered.resize(field.rows(), 3);
+  run(weights, columns_of(field, filtered));
   field.swap(filtered);
 }
 
-void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const {
-  const bool conserving = options_.form == FilterForm::conserving;
-  std::vector<BodyMotion> before;
-  if (conserving)
-    for (const Body& body : structure_.body) before.push_back(body_motion(structure_, body, position, field));
-
+template <class Work>
+void Filter::with_weights(const Eigen::MatrixX3d& position, double time, const Work& work) const {
+  if (constant_weights()) return work(rest_weights_);
   const bool current = options_.distances == FilterDistances::current;
-  const AlignedVector<double> fresh =
-      constant_weights() ? AlignedVector<double>{} : arranged(compute_weights(current ? &position : nullptr, time));
-  const AlignedVector<double>& weights = constant_weights() ? rest_weights_ : fresh;
-  for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field);
+  work(arranged(compute_weights(current ? &position : nullptr, time)));
+}
 
+bool Filter::restores_momenta() const {
+  return options_.form == FilterForm::conserving &&
+         std::any_of(structure_.body.begin(), structure_.body.end(),
+                     [&](const Body& body) { return is_free(structure_, body); });
+}
+
+void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const {
+  std::vector<BodyMotion> before;
+  if (restores_momenta())
+    for (const Body& body : structure_.body) before.push_back(body_motion(structure_, body, position, field));
+  with_weights(position, time, [&](const AlignedVector<double>& weights) {
+    for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field);
+  });
   for (std::size_t b = 0; b < before.size(); ++b)
     if (is_free(structure_, structure_.body[b]))
       restore_momenta(structure_, structure_.body[b], position, before[b], field);
+}
+
+// The last pass writes where `columns` say.
+void Filter::apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
+                        FilterColumns columns) const {
+  with_weights(position, time, [&](const AlignedVector<double>& weights) {
+    for (int pass = 1; pass < options_.passes; ++pass) apply_once(weights, field);
+    for (int axis = 0; axis < 3; ++axis) columns.in[axis] = field.col(axis).data();
+    run(weights, columns);
+  });
+}
+
+void Filter::apply_and_move(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, double h,
+                            Eigen::MatrixX3d& velocity, Eigen::MatrixX3d& moved) const {
+  if (restores_momenta()) {
+    apply(position, time, field);
+    velocity = field;
+    moved += h * velocity;
+    return;
+  }
+  FilterColumns columns = columns_of(field, velocity);
+  columns.move_step = h;
+  for (int axis = 0; axis < 3; ++axis) columns.moved[axis] = moved.col(axis).data();
+  apply_last(position, time, field, columns);
+}
+
+void Filter::apply_and_kick(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
+                            const Eigen::MatrixX3d& velocity, double h, Eigen::MatrixX3d& kicked) const {
+  if (restores_momenta()) {
+    apply(position, time, field);
+    kicked = velocity + h * field;
+    return;
+  }
+  kicked.resize(field.rows(), 3);
+  FilterColumns columns = columns_of(field, kicked);
+  columns.kick_step = h;
+  for (int axis = 0; axis < 3; ++axis) columns.base[axis] = velocity.col(axis).data();
+  apply_last(position, time, field, columns);
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> Filter::weights(const Eigen::MatrixX3d& position, double time) const {

@@ -12,6 +12,8 @@
 
 namespace billow::sim {
 
+struct FilterColumns;
+
 enum class FilterKernel { exponential, gaussian };
 enum class FilterForm { plain, symmetric, conserving };
 enum class FilterTarget { velocity, force };
@@ -50,6 +52,14 @@ class Filter {
   /// conserving form; time [s] by lambda_keys.
   void apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field) const;
 
+  /// velocity = F field, then moved += h velocity, in one pass over memory where no body's momenta need restoring.
+  /// `position` may be `moved`. `field` is left as anything.
+  void apply_and_move(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, double h,
+                      Eigen::MatrixX3d& velocity, Eigen::MatrixX3d& moved) const;
+  /// kicked = velocity + h F field, likewise.
+  void apply_and_kick(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
+                      const Eigen::MatrixX3d& velocity, double h, Eigen::MatrixX3d& kicked) const;
+
   const FilterOptions& options() const { return options_; }
   /// The row-normalised weights B in force at `position` and `time`, (n x n), for tests and analysis.
   Eigen::SparseMatrix<double, Eigen::RowMajor> weights(const Eigen::MatrixX3d& position, double time) const;
@@ -66,7 +76,12 @@ class Filter {
   void keep_spectrum_positive();
   AlignedVector<double> arranged(const Weights& weights) const;
   void apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const;
+  void apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns) const;
+  void run(const AlignedVector<double>& weights, const FilterColumns& columns) const;
+  template <class Work>
+  void with_weights(const Eigen::MatrixX3d& position, double time, const Work& work) const;
   bool constant_weights() const;
+  bool restores_momenta() const;
 
   const Structure& structure_;
   FilterOptions options_;

@@ -17,39 +17,63 @@
 HWY_BEFORE_NAMESPACE();
 namespace billow::sim::HWY_NAMESPACE {
 
-// Four lanes at most: a vector of eight, loaded at any particle, always straddles two cache lines.
-using Band = hn::CappedTag<double, 4>;
-constexpr int band_lanes = static_cast<int>(hn::MaxLanes(Band()));
+/// The columns from a body's first particle on.
+FilterColumns columns_from(const FilterColumns& columns, int first_particle) {
+  FilterColumns own = columns;
+  for (int axis = 0; axis < 3; ++axis) {
+    own.in[axis] += first_particle;
+    own.out[axis] += first_particle;
+    if (own.base[axis]) own.base[axis] += first_particle;
+    if (own.moved[axis]) own.moved[axis] += first_particle;
+  }
+  return own;
+}
 
-/// Columns over some of the particles: entry i is particle i of the body.
-struct FieldSegment {
-  const double* in[3];
-  double* out[3];
-};
+/// FilterColumns::put on a vector of particles.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void put(D d, const FilterColumns& columns, int axis, std::ptrdiff_t i, V value) {
+  if (columns.base[axis])
+    value = hn::Add(hn::LoadU(d, columns.base[axis] + i), hn::Mul(hn::Set(d, columns.kick_step), value));
+  hn::StoreU(value, d, columns.out[axis] + i);
+  if (!columns.moved[axis]) return;
+  double* const moved = columns.moved[axis] + i;
+  hn::StoreU(hn::Add(hn::LoadU(d, moved), hn::Mul(hn::Set(d, columns.move_step), value)), d, moved);
+}
 
-// Two vectors of particles from i on. Named sums stay in registers.
-HWY_INLINE void filter_pair(const FilterBands& bands, const double* weight, const FieldSegment& field, int i) {
-  const Band d;
-  hn::Vec<Band> x0 = hn::Zero(d), x1 = x0, y0 = x0, y1 = x0, z0 = x0, z1 = x0;
-  const double *const x = field.in[0] + i, *const y = field.in[1] + i, *const z = field.in[2] + i;
+// Several vectors at once, so that what is read for every offset is read less often.
+template <class D, int vectors = 4>
+HWY_INLINE void filter_vectors(D d, const FilterBands& bands, const double* weight, const FilterColumns& field, int i) {
+  using V = hn::Vec<D>;
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  V x[vectors], y[vectors], z[vectors];
+  HWY_UNROLL(4)
+  for (int u = 0; u < vectors; ++u) x[u] = y[u] = z[u] = hn::Zero(d);
+  const double* const in[3] = {field.in[0] + i, field.in[1] + i, field.in[2] + i};
   for (const int offset : bands.offset) {
-    const auto w0 = hn::Load(d, weight), w1 = hn::Load(d, weight + band_lanes);
-    const std::ptrdiff_t j0 = offset, j1 = j0 + band_lanes;
-    x0 = hn::Add(x0, hn::Mul(w0, hn::LoadU(d, x + j0))), x1 = hn::Add(x1, hn::Mul(w1, hn::LoadU(d, x + j1)));
-    y0 = hn::Add(y0, hn::Mul(w0, hn::LoadU(d, y + j0))), y1 = hn::Add(y1, hn::Mul(w1, hn::LoadU(d, y + j1)));
-    z0 = hn::Add(z0, hn::Mul(w0, hn::LoadU(d, z + j0))), z1 = hn::Add(z1, hn::Mul(w1, hn::LoadU(d, z + j1)));
+    const double *const in_x = in[0] + offset, *const in_y = in[1] + offset, *const in_z = in[2] + offset;
+    HWY_UNROLL(4)
+    for (int u = 0; u < vectors; ++u) {
+      const V w = hn::Load(d, weight + u * lanes);
+      x[u] = hn::Add(x[u], hn::Mul(w, hn::LoadU(d, in_x + u * lanes)));
+      y[u] = hn::Add(y[u], hn::Mul(w, hn::LoadU(d, in_y + u * lanes)));
+      z[u] = hn::Add(z[u], hn::Mul(w, hn::LoadU(d, in_z + u * lanes)));
+    }
     weight += band_group;
   }
-  hn::StoreU(x0, d, field.out[0] + i), hn::StoreU(x1, d, field.out[0] + i + band_lanes);
-  hn::StoreU(y0, d, field.out[1] + i), hn::StoreU(y1, d, field.out[1] + i + band_lanes);
-  hn::StoreU(z0, d, field.out[2] + i), hn::StoreU(z1, d, field.out[2] + i + band_lanes);
+  HWY_UNROLL(4)
+  for (int u = 0; u < vectors; ++u) {
+    put(d, field, 0, i + u * lanes, x[u]);
+    put(d, field, 1, i + u * lanes, y[u]);
+    put(d, field, 2, i + u * lanes, z[u]);
+  }
 }
 
 // Whole groups from `begin` to `end`.
-void filter_groups(const FilterBands& bands, const double* weights, const FieldSegment& field, int begin, int end) {
+void filter_groups(const FilterBands& bands, const double* weights, const FilterColumns& field, int begin, int end) {
+  const hn::CappedTag<double, 4> d;
   for (int i = begin; i < end; i += band_group)
-    for (int k = 0; k < band_group; k += 2 * band_lanes)
-      filter_pair(bands, weights + static_cast<std::size_t>(i) * bands.offset.size() + k, field, i + k);
+    for (int k = 0; k < band_group; k += 4 * static_cast<int>(hn::Lanes(d)))
+      filter_vectors(d, bands, weights + static_cast<std::size_t>(i) * bands.offset.size() + k, field, i + k);
 }
 
 /// Room that a thread keeps from pass to pass.
@@ -60,13 +84,13 @@ AlignedVector<double>& room(std::size_t doubles) {
 }
 
 // Particles near a body's ends, on copies with zeros beyond those ends.
-void filter_edge(const FilterBands& bands, const double* weights, const FieldSegment& whole, int begin, int end) {
+void filter_edge(const FilterBands& bands, const double* weights, const FilterColumns& whole, int begin, int end) {
   if (begin >= end) return;
   const int last = (end + band_group - 1) / band_group * band_group;
   const int low = begin + bands.offset.front(), rows = last + bands.offset.back() - low;
   AlignedVector<double>& memory = room(static_cast<std::size_t>(6 * rows));
   const int from = std::max(low, 0), to = std::min(low + rows, bands.particles);
-  FieldSegment edge;
+  FilterColumns edge{};
   for (int axis = 0; axis < 3; ++axis) {
     double* in = memory.data() + axis * rows;
     std::copy(whole.in[axis] + from, whole.in[axis] + to, in + (from - low));
@@ -74,21 +98,13 @@ void filter_edge(const FilterBands& bands, const double* weights, const FieldSeg
     edge.out[axis] = memory.data() + (3 + axis) * rows - begin;
   }
   filter_groups(bands, weights, edge, begin, last);
-  for (int axis = 0; axis < 3; ++axis) std::copy(edge.out[axis] + begin, edge.out[axis] + end, whole.out[axis] + begin);
-}
-
-FieldSegment segment_of(const FilterColumns& columns, int first_particle) {
-  FieldSegment segment;
-  for (int axis = 0; axis < 3; ++axis) {
-    segment.in[axis] = columns.in[axis] + first_particle;
-    segment.out[axis] = columns.out[axis] + first_particle;
-  }
-  return segment;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = begin; i < end; ++i) whole.put(axis, i, edge.out[axis][i]);
 }
 
 void filter_bands(const FilterBands& bands, const AlignedVector<double>& weights, const FilterColumns& columns,
                   int begin, int end) {
-  const FieldSegment whole = segment_of(columns, bands.first_particle);
+  const FilterColumns whole = columns_from(columns, bands.first_particle);
   const double* own = weights.data() + bands.begin;
   const int inner_begin = (-bands.offset.front() + band_group - 1) / band_group * band_group;
   const int inner_end = (bands.particles - bands.offset.back()) / band_group * band_group;
@@ -115,9 +131,14 @@ HWY_INLINE void filter_slice(const double* weight, const int* column, const int*
   sums = transposed({a, b, c, e});
 }
 
-HWY_INLINE void store_slice(const SliceSums& sums, double* x, double* y, double* z) {
+HWY_INLINE void put_slice(const SliceSums& sums, const FilterColumns& columns, std::ptrdiff_t i) {
   const Quad d;
-  hn::StoreU(sums.x, d, x), hn::StoreU(sums.y, d, y), hn::StoreU(sums.z, d, z);
+  put(d, columns, 0, i, sums.x), put(d, columns, 1, i, sums.y), put(d, columns, 2, i, sums.z);
+}
+
+HWY_INLINE void store_slice(const SliceSums& sums, double value[3][4]) {
+  const Quad d;
+  hn::Store(sums.x, d, value[0]), hn::Store(sums.y, d, value[1]), hn::Store(sums.z, d, value[2]);
 }
 
 #else
@@ -133,17 +154,20 @@ void filter_slice(const double* weight, const int* column, const int* end, const
       for (int axis = 0; axis < 3; ++axis) sums.axis[axis][k] += weight[k] * rows[4 * std::ptrdiff_t{column[k]} + axis];
 }
 
-void store_slice(const SliceSums& sums, double* x, double* y, double* z) {
-  std::copy(sums.axis[0], sums.axis[0] + 4, x);
-  std::copy(sums.axis[1], sums.axis[1] + 4, y);
-  std::copy(sums.axis[2], sums.axis[2] + 4, z);
+void put_slice(const SliceSums& sums, const FilterColumns& columns, std::ptrdiff_t i) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < 4; ++k) columns.put(axis, i + k, sums.axis[axis][k]);
+}
+
+void store_slice(const SliceSums& sums, double value[3][4]) {
+  for (int axis = 0; axis < 3; ++axis) std::copy(sums.axis[axis], sums.axis[axis] + 4, value[axis]);
 }
 
 #endif
 
 void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weights, const FilterColumns& columns,
                    int block) {
-  const FieldSegment whole = segment_of(columns, slices.first_particle);
+  const FilterColumns whole = columns_from(columns, slices.first_particle);
   const FilterSlices::Block& run = slices.block[static_cast<std::size_t>(block)];
   AlignedVector<double>& memory = room(4 * static_cast<std::size_t>(run.high - run.low));
   ordered_rows_of(whole.in, slices.order, run.low, run.high, memory.data());
@@ -154,14 +178,14 @@ void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weig
     SliceSums sums;
     filter_slice(weights.data() + slices.begin + (column - slices.column.data()), column, end, rows, sums);
     if (4 * t + 4 <= slices.particles && slices.order.empty()) {
-      store_slice(sums, whole.out[0] + 4 * t, whole.out[1] + 4 * t, whole.out[2] + 4 * t);
+      put_slice(sums, whole, 4 * t);
       continue;
     }
-    double last[3][4];
-    store_slice(sums, last[0], last[1], last[2]);
+    HWY_ALIGN double value[3][4];
+    store_slice(sums, value);
     for (int k = 0; k < 4 && 4 * t + k < slices.particles; ++k) {
       const int i = slices.order.empty() ? 4 * t + k : slices.order[static_cast<std::size_t>(4 * t + k)];
-      for (int axis = 0; axis < 3; ++axis) whole.out[axis][i] = last[axis][k];
+      for (int axis = 0; axis < 3; ++axis) whole.put(axis, i, value[axis][k]);
     }
   }
 }

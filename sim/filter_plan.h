@@ -15,7 +15,7 @@ struct NeighbourRows {
 };
 
 /// A body whose neighbours lie at a few constant distances: weight k of particle i, that of particle i + offset[k], is
-/// at begin + (i / 8 * offsets + k) * 8 + i % 8; 0 where there is no such neighbour.
+/// at begin + (i / 16 * offsets + k) * 16 + i % 16; 0 where there is no such neighbour.
 struct FilterBands {
   int first_particle = 0, particles = 0;
   std::vector<int> offset;  // ascending; 0, the particle itself, is one

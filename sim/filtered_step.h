@@ -30,7 +30,7 @@ class FilteredStep {
   const Forces& forces_;
   std::unique_ptr<Forces> filtered_forces_;
   std::unique_ptr<Integrator> integrator_;
-  VelocityHook hook_;
+  std::unique_ptr<VelocityFilter> velocity_filter_;
   double time_ = 0.0;  // [s] of the step being taken, for filters whose lambda varies
 };
 

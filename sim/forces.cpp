@@ -48,8 +48,12 @@ class FluidFriction : public ForceTerm {
 
 }  // namespace
 
-Forces::Forces(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure) {
-  add(std::make_unique<SpringForce>(structure));
+constexpr std::size_t swept_terms = 3;  // springs, friction, gravity
+
+Forces::Forces(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure), gravity_(gravity) {
+  auto springs = std::make_unique<SpringForce>(structure);
+  springs_ = springs.get();
+  add(std::move(springs));
   add(std::make_unique<FluidFriction>(structure));
   add(std::make_unique<Gravity>(structure, gravity));
 }
@@ -63,8 +67,45 @@ void Forces::evaluate(const State& state, Eigen::MatrixX3d& force) const {
 }
 
 void Forces::acceleration(const State& state, Eigen::MatrixX3d& acceleration) const {
+  if (springs_) {
+    acceleration.resize(structure_.particles(), 3);
+    SpringSink sink;
+    for (int axis = 0; axis < 3; ++axis) sink.out[axis] = acceleration.col(axis).data();
+    return sweep(state, sink);
+  }
   evaluate(state, acceleration);
   for (int axis = 0; axis < 3; ++axis) acceleration.col(axis).array() *= structure_.inverse_mass.array();
+}
+
+void Forces::kick(const State& state, double h, Eigen::MatrixX3d& velocity) const {
+  if (!springs_) {
+    acceleration(state, velocity);
+    velocity = state.velocity + h * velocity;
+    return;
+  }
+  velocity.resize(structure_.particles(), 3);
+  SpringSink sink;
+  sink.step = h;
+  for (int axis = 0; axis < 3; ++axis) {
+    sink.base[axis] = state.velocity.col(axis).data();
+    sink.out[axis] = velocity.col(axis).data();
+  }
+  sweep(state, sink);
+}
+
+// Springs, friction, gravity and masses in one pass over memory; what else acts is summed before it.
+void Forces::sweep(const State& state, SpringSink& sink) const {
+  Eigen::MatrixX3d applied;
+  if (terms_.size() > swept_terms) applied = Eigen::MatrixX3d::Zero(structure_.particles(), 3);
+  for (std::size_t k = swept_terms; k < terms_.size(); ++k) terms_[k]->add_force(state, applied);
+  sink.mass = structure_.mass.data();
+  sink.inverse_mass = structure_.inverse_mass.data();
+  for (int axis = 0; axis < 3; ++axis) {
+    sink.velocity[axis] = state.velocity.col(axis).data();
+    sink.gravity[axis] = gravity_(axis);
+    if (applied.size() > 0) sink.applied[axis] = applied.col(axis).data();
+  }
+  springs_->sweep(state, sink);
 }
 
 double Forces::potential_energy(const State& state) const {

@@ -25,6 +25,9 @@ class ForceTerm {
                                  StiffnessMatrix&) const {}
 };
 
+class SpringForce;
+struct SpringSink;
+
 /// The sum of all laws that act in a scene.
 class Forces {
  public:
@@ -40,6 +43,8 @@ class Forces {
   virtual void evaluate(const State& state, Eigen::MatrixX3d& force) const;
   /// acceleration (n x 3) [m/s^2] = M^-1 f; zero for pinned particles.
   virtual void acceleration(const State& state, Eigen::MatrixX3d& acceleration) const;
+  /// velocity (n x 3) [m/s] = state.velocity + h M^-1 f.
+  virtual void kick(const State& state, double h, Eigen::MatrixX3d& velocity) const;
   /// Potential energy [J].
   double potential_energy(const State& state) const;
   /// position_weight K + velocity_weight C at `state`.
@@ -52,8 +57,13 @@ class Forces {
   const Structure& structure() const { return structure_; }
 
  private:
+  void sweep(const State& state, SpringSink& sink) const;
+
   const Structure& structure_;
   std::vector<std::unique_ptr<ForceTerm>> terms_;
+  // The springs among the terms, when the next two are friction and this gravity: one sweep then takes all three.
+  const SpringForce* springs_ = nullptr;
+  Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();
 };
 
 /// Kinetic energy [J], linear momentum [kg m/s] and angular momentum about the origin [kg m^2/s].

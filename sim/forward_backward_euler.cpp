@@ -8,17 +8,19 @@ namespace {
 
 class ForwardBackwardEuler : public Integrator {
  public:
-  void step(const Structure&, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
-    forces.acceleration(state, acceleration_);
-    state.velocity += h * acceleration_;
-    if (velocity_known) velocity_known(state.position, state.velocity);
-    state.position += h * state.velocity;
+  void step(const Structure&, const Forces& forces, State& state, double h, const VelocityFilter* filter) override {
+    forces.kick(state, h, velocity_);
+    if (filter) {
+      filter->apply_and_move(velocity_, state, h);
+    } else {
+      state.velocity.swap(velocity_);
+      move(state, h);
+    }
     state.time += h;
   }
 
  private:
-  Eigen::MatrixX3d acceleration_;
+  Eigen::MatrixX3d velocity_;
 };
 
 }  // namespace

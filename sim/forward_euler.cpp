@@ -8,11 +8,10 @@ namespace {
 
 class ForwardEuler : public Integrator {
  public:
-  void step(const Structure&, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
+  void step(const Structure&, const Forces& forces, State& state, double h, const VelocityFilter* filter) override {
     forces.acceleration(state, acceleration_);
     velocity_ = state.velocity + h * acceleration_;
-    if (velocity_known) velocity_known(state.position, velocity_);
+    if (filter) filter->apply(state.position, velocity_);
     state.position += h * state.velocity;
     state.velocity.swap(velocity_);
     state.time += h;

@@ -28,14 +28,14 @@ class Imex : public Integrator {
   explicit Imex(const IntegratorOptions& options) : options_(options) {}
 
   void step(const Structure& structure, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
+            const VelocityFilter* filter) override {
     if (h != factorised_step_) prepare(structure, h);
     forces.evaluate(state, b_);
     stiffness_->multiply(state.velocity, product_);
     b_ = h * b_ - product_;
     solve(structure);
     state.velocity += change_;
-    if (velocity_known) velocity_known(state.position, state.velocity);
+    if (filter) filter->apply(state.position, state.velocity);
     state.position += h * state.velocity;
     state.time += h;
   }

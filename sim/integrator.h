@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -32,18 +31,26 @@ struct SolveCounts {
   long solves = 0, iterations = 0, failures = 0;  // failures: not converged within max_iterations
 };
 
-/// Called by a scheme as soon as it knows the new velocities (n x 3), before it moves positions by them;
-/// position (n x 3) is the one the velocities belong to. A solver hangs its post-process here.
-using VelocityHook = std::function<void(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& velocity)>;
+/// A post-process of the velocities, which a scheme applies as soon as it knows them, before it moves positions by
+/// them.
+class VelocityFilter {
+ public:
+  virtual ~VelocityFilter() = default;
+  /// velocity (n x 3) <- its filtered one; position (n x 3) is the one the velocities belong to.
+  virtual void apply(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& velocity) const = 0;
+  /// state.velocity = the filtered `velocity`, then state.position += h state.velocity, in one pass over memory.
+  /// `velocity` is left as anything.
+  virtual void apply_and_move(Eigen::MatrixX3d& velocity, State& state, double h) const = 0;
+};
 
 /// A time-stepping scheme with its scratch space. Pinned particles keep position and velocity.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Advances `state` by h [s]; state.time grows by h. `velocity_known` may be empty.
+  /// Advances `state` by h [s]; state.time grows by h. `filter` may be null.
   virtual void step(const Structure& structure, const Forces& forces, State& state, double h,
-                    const VelocityHook& velocity_known) = 0;
+                    const VelocityFilter* filter) = 0;
 
   virtual SolveCounts solve_counts() const { return {}; }
 };

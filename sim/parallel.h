@@ -22,6 +22,14 @@ inline int parts_of(int particles, int least_part) {
   return std::clamp(particles / least_part, 1, 2 * threads);
 }
 
+/// Runs work(0) ... work(parts - 1) on the calling arena's threads. While it waits, the caller takes no other task:
+/// that could be a whole other simulation, which would use the room that this thread's passes keep.
+template <class Work>
+void run_isolated(int parts, const Work& work) {
+  oneapi::tbb::this_task_arena::isolate(
+      [&] { oneapi::tbb::parallel_for(0, parts, work, oneapi::tbb::simple_partitioner{}); });
+}
+
 /// Runs work(begin, end) over [0, particles) in parts that begin at multiples of `unit`.
 template <class Work>
 void for_each_range(int particles, int unit, int least_part, const Work& work) {
@@ -31,15 +39,14 @@ void for_each_range(int particles, int unit, int least_part, const Work& work) {
     if (part == parts) return particles;
     return static_cast<int>(std::int64_t{particles} * part / parts / unit * unit);
   };
-  oneapi::tbb::parallel_for(
-      0, parts, [&](int part) { work(begin(part), begin(part + 1)); }, oneapi::tbb::simple_partitioner{});
+  run_isolated(parts, [&](int part) { work(begin(part), begin(part + 1)); });
 }
 
 /// Runs work(0) ... work(blocks - 1), blocks being what the plan has cut `particles` into.
 template <class Work>
 void for_each_block(int particles, int blocks, const Work& work) {
   if (parts_of(particles, 1) > 1)
-    oneapi::tbb::parallel_for(0, blocks, work, oneapi::tbb::simple_partitioner{});
+    run_isolated(blocks, work);
   else
     for (int block = 0; block < blocks; ++block) work(block);
 }

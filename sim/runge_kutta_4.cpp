@@ -1,5 +1,5 @@
 // The classical fourth-order Runge-Kutta scheme on (x, v)' = (v, M^-1 f). Four force evaluations a step; stable to
-// omega h = 2 sqrt 2. Both halves of the state are known at once, so the hook sees the final velocities.
+// omega h = 2 sqrt 2. Both halves of the state are known at once, so the filter sees the final velocities.
 #include "sim/schemes.h"
 
 namespace billow::sim {
@@ -8,8 +8,7 @@ namespace {
 
 class RungeKutta4 : public Integrator {
  public:
-  void step(const Structure&, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
+  void step(const Structure&, const Forces& forces, State& state, double h, const VelocityFilter* filter) override {
     stage_ = state;
     position_sum_ = Eigen::MatrixX3d::Zero(state.position.rows(), 3);
     velocity_sum_ = position_sum_;
@@ -23,7 +22,7 @@ class RungeKutta4 : public Integrator {
     state.position += h / 6.0 * position_sum_;
     state.velocity += h / 6.0 * velocity_sum_;
     state.time += h;
-    if (velocity_known) velocity_known(state.position, state.velocity);
+    if (filter) filter->apply(state.position, state.velocity);
   }
 
  private:

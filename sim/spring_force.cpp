@@ -15,28 +15,16 @@ namespace {
 // Fewer particles than this are not worth a thread's while.
 constexpr int least_part = 2048;
 
-SpringColumns columns_of(const State& state, Eigen::MatrixX3d& force) {
+SpringColumns columns_of(const State& state) {
   SpringColumns columns{};
   for (int axis = 0; axis < 3; ++axis) {
     columns.position[axis] = state.position.col(axis).data();
     columns.velocity[axis] = state.velocity.col(axis).data();
-    columns.force[axis] = force.col(axis).data();
   }
   return columns;
 }
 
-void add_bands(const SpringBands& bands, const SpringColumns& columns) {
-  // A part repeats the springs that reach into it from before: it should be long compared with the longest stride.
-  for_each_range(bands.particles, band_group, std::max(least_part, 8 * bands.stride.back()),
-                 [&](int begin, int end) { add_band_forces(bands, columns, begin, end); });
-}
-
-void add_slices(const SpringSlices& slices, const SpringColumns& columns) {
-  for_each_block(slices.particles, static_cast<int>(slices.block.size()),
-                 [&](int block) { add_slice_forces(slices, columns, block); });
-}
-
-// One spring after another: the models whose tension is a function of its own.
+// One spring after another: the models whose tension is a function of its own. force (body.particles x 3)
 void add_other(const Structure& structure, const Body& body, const State& state, Eigen::MatrixX3d& force) {
   for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
     const int i = structure.spring(s, 0), j = structure.spring(s, 1);
@@ -53,18 +41,45 @@ void add_other(const Structure& structure, const Body& body, const State& state,
       pull +=
           body.damping_model == DampingModel::projected ? (c * d.dot(w) / d.squaredNorm() * d).eval() : (c * w).eval();
     }
-    force.row(i) += pull;
-    force.row(j) -= pull;
+    force.row(i - body.first_particle) += pull;
+    force.row(j - body.first_particle) -= pull;
   }
 }
 
 }  // namespace
 
 void SpringForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
-  const SpringColumns columns = columns_of(state, force);
-  for (const SpringBands& bands : plan_.bands) add_bands(bands, columns);
-  for (const SpringSlices& slices : plan_.slices) add_slices(slices, columns);
-  for (const int body : plan_.others) add_other(structure_, structure_.body[body], state, force);
+  SpringSink sink;
+  for (int axis = 0; axis < 3; ++axis) sink.out[axis] = force.col(axis).data();
+  sweep(state, sink);
+}
+
+void SpringForce::sweep(const State& state, const SpringSink& sink) const {
+  const SpringColumns columns = columns_of(state);
+  const auto sink_of = [&](const Body& body) {
+    SpringSink own = sink;
+    own.friction = body.friction;
+    return own;
+  };
+  for (const SpringBands& bands : plan_.bands) {
+    const SpringSink own = sink_of(structure_.body[bands.body]);
+    // A part repeats the springs that reach into it from before: it should be long compared with the longest stride.
+    for_each_range(bands.particles, band_group, std::max(least_part, 8 * bands.stride.back()),
+                   [&](int begin, int end) { sweep_springs(bands, columns, own, begin, end); });
+  }
+  for (const SpringSlices& slices : plan_.slices) {
+    const SpringSink own = sink_of(structure_.body[slices.body]);
+    for_each_block(slices.particles, static_cast<int>(slices.block.size()),
+                   [&](int block) { sweep_springs(slices, columns, own, block); });
+  }
+  for (const int b : plan_.others) {
+    const Body& body = structure_.body[b];
+    Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(body.particles, 3);
+    add_other(structure_, body, state, sum);
+    const SpringSink own = sink_of(body).from(body.first_particle);
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < body.particles; ++i) own.put(axis, i, sum(i, axis));
+  }
 }
 
 double SpringForce::energy(const State& state) const {

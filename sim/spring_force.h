@@ -3,6 +3,7 @@
 
 #include "sim/forces.h"
 #include "sim/spring_plan.h"
+#include "sim/spring_sink.h"
 
 namespace billow::sim {
 
@@ -12,6 +13,8 @@ class SpringForce : public ForceTerm {
  public:
   explicit SpringForce(const Structure& structure) : structure_(structure), plan_(structure) {}
   void add_force(const State& state, Eigen::MatrixX3d& force) const override;
+  /// Puts the sum of its springs, also where there are none, of every particle into `sink`, with its body's friction.
+  void sweep(const State& state, const SpringSink& sink) const;
   double energy(const State& state) const override;
   void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
                          StiffnessMatrix& matrix) const override;

@@ -35,8 +35,11 @@ LocalSprings local_springs(const Structure& structure, const Body& body) {
 
 // The springs as bands, if those of each stride are of one material; otherwise bands without strides.
 SpringBands make_bands(const Structure& structure, const Body& body, const LocalSprings& local) {
-  SpringBands bands{
-      body.first_particle, body.particles, is_damped(structure, body), body.damping_model, {}, {}, {}, {}};
+  SpringBands bands;
+  bands.first_particle = body.first_particle;
+  bands.particles = body.particles;
+  bands.damped = is_damped(structure, body);
+  bands.damping_model = body.damping_model;
   bands.stride = common_strides(local.ends, body.particles);
   const std::size_t strides = bands.stride.size();
   bands.stiffness.assign(strides, -1.0);
@@ -209,17 +212,16 @@ SpringSlices make_slices(const Structure& structure, const Body& body, const Loc
 SpringPlan::SpringPlan(const Structure& structure) {
   for (std::size_t b = 0; b < structure.body.size(); ++b) {
     const Body& body = structure.body[b];
-    if (body.spring_model != SpringModel::linear) {
+    if (body.spring_model != SpringModel::linear || body.springs == 0) {
       others.push_back(static_cast<int>(b));
       continue;
     }
-    if (body.springs == 0) continue;
     const LocalSprings local = local_springs(structure, body);
     SpringBands regular = make_bands(structure, body, local);
     if (regular.stride.empty())
-      slices.push_back(make_slices(structure, body, local));
+      slices.push_back(make_slices(structure, body, local)), slices.back().body = static_cast<int>(b);
     else
-      bands.push_back(std::move(regular));
+      bands.push_back(std::move(regular)), bands.back().body = static_cast<int>(b);
   }
 }
 

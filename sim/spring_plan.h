@@ -9,13 +9,14 @@
 
 namespace billow::sim {
 
-/// Particles are taken in groups of this many, whatever the processor's vectors hold (2, 4 or 8 doubles).
-constexpr int band_group = 8;
+/// Particles are taken in groups of this many, whatever the processor's vectors hold: 2, 4 or 8 doubles.
+constexpr int band_group = 16;
 
 /// Springs of a body numbered row by row, such as a grid's: every spring joins i and i + stride for one of a few
 /// strides, and those of one stride are of one material. Spring k of particle i is at
-/// [(i / 8 * strides + k) * 8 + i % 8]; where there is none, its rest length is 0.
+/// [(i / 16 * strides + k) * 16 + i % 16]; where there is none, its rest length is 0.
 struct SpringBands {
+  int body = 0;  // of the structure
   int first_particle = 0, particles = 0;
   bool damped = false;
   DampingModel damping_model = DampingModel::projected;
@@ -29,6 +30,7 @@ struct SpringBands {
 /// it, both being numbered by their place in `order`. Springs' forces wait for that in a ring, each at its number
 /// modulo the ring's size.
 struct SpringSlices {
+  int body = 0;  // of the structure
   int first_particle = 0, particles = 0;
   bool damped = false;
   DampingModel damping_model = DampingModel::projected;
@@ -53,7 +55,7 @@ struct SpringSlices {
 /// Slices whose springs are computed ahead of the one that is being summed.
 constexpr int slice_lead = 2;
 
-/// Each body of linear springs as bands or as slices; bodies of another model are left to the plain pass.
+/// Each body of linear springs as bands or as slices; bodies of another model and of none are left to the plain pass.
 struct SpringPlan {
   explicit SpringPlan(const Structure& structure);
 

@@ -14,6 +14,9 @@ struct State {
   double time = 0.0;          // [s]
 };
 
+/// position += h velocity
+void move(State& state, double h);
+
 /// The structure at rest at time 0.
 State rest_state(const Structure& structure);
 

@@ -9,13 +9,12 @@ namespace {
 
 class Verlet : public Integrator {
  public:
-  void step(const Structure&, const Forces& forces, State& state, double h,
-            const VelocityHook& velocity_known) override {
+  void step(const Structure&, const Forces& forces, State& state, double h, const VelocityFilter* filter) override {
     state.position += 0.5 * h * state.velocity;
     state.time += 0.5 * h;
     forces.acceleration(state, acceleration_);
     state.velocity += h * acceleration_;
-    if (velocity_known) velocity_known(state.position, state.velocity);
+    if (filter) filter->apply(state.position, state.velocity);
     state.position += 0.5 * h * state.velocity;
     state.time += 0.5 * h;
   }

@@ -304,13 +304,20 @@ TEST(EveryScheme, FallsFreelyWithGravity) {
   }
 }
 
-TEST(EveryScheme, MovesByTheVelocitiesThatItsHookLeaves) {
+/// A filter that lets nothing through.
+class Stop : public VelocityFilter {
+ public:
+  void apply(const Eigen::MatrixX3d&, Eigen::MatrixX3d& velocity) const override { velocity.setZero(); }
+  void apply_and_move(Eigen::MatrixX3d&, State& state, double) const override { state.velocity.setZero(); }
+};
+
+TEST(EveryScheme, MovesByTheVelocitiesThatItsFilterLeaves) {
   const Structure structure = grid({.width = 3, .height = 3, .pinned = {0}});
   const Forces forces(structure, {0.0, -9.81, 0.0});
-  const auto stop = [](const Eigen::MatrixX3d&, Eigen::MatrixX3d& velocity) { velocity.setZero(); };
+  const Stop stop;
   for (const Method method : all_methods) {
     State state = rest_state(structure);
-    make_integrator(method, exact_solver)->step(structure, forces, state, 0.01, stop);
+    make_integrator(method, exact_solver)->step(structure, forces, state, 0.01, &stop);
     EXPECT_TRUE(state.velocity.isZero(0.0)) << name(method);
     if (method == Method::rk4) continue;  // knows position and velocity at once
     EXPECT_EQ(state.position, structure.rest_position) << name(method);

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <random>
 
@@ -134,6 +135,61 @@ TEST(FilterPass, HasTheSameBitsOnEveryInstructionSet) {
       };
       const Eigen::MatrixX3d expected = filtered();
       on_every_instruction_set([&] { EXPECT_EQ(filtered(), expected); });
+    }
+}
+
+// A force that is not a spring's, so that a sweep has one to add.
+class Wind : public ForceTerm {
+ public:
+  void add_force(const State& state, Eigen::MatrixX3d& force) const override { force += 0.1 * state.position; }
+};
+
+// Every structure of the tests, with friction, a pinned particle and a body of springs that only the plain loop knows.
+Structure pinned_and_rubbed(Structure structure) {
+  Structure buckling = grid({.width = 4, .height = 3, .structural = 100.0});
+  buckling.body[0].spring_model = SpringModel::choi_ko;
+  structure = merge({structure, buckling});
+  structure.inverse_mass(0) = 0.0;
+  for (Body& body : structure.body) body.friction = 0.02;
+  return structure;
+}
+
+TEST(Sweep, IsTheSumOfTheTermsBitForBit) {
+  for (const Structure& plain : structures()) {
+    const Structure structure = pinned_and_rubbed(plain);
+    Forces forces(structure, {0.0, -9.81, 0.0});
+    forces.add(std::make_unique<Wind>());
+    const State state = shaken(structure);
+    Eigen::MatrixX3d expected, acceleration, kicked;
+    forces.evaluate(state, expected);
+    for (int axis = 0; axis < 3; ++axis) expected.col(axis).array() *= structure.inverse_mass.array();
+    on_every_instruction_set([&] {
+      forces.acceleration(state, acceleration);
+      EXPECT_EQ(acceleration, expected);
+      forces.kick(state, 0.01, kicked);
+      EXPECT_EQ(kicked, (state.velocity + 0.01 * expected).eval());
+    });
+  }
+}
+
+TEST(FilterPass, MovesAndKicksInOnePassBitForBit) {
+  for (const Structure& plain : structures())
+    for (const int passes : {1, 3}) {
+      const Structure structure = pinned_and_rubbed(plain);
+      const Filter filter(structure, {.passes = passes});
+      const State state = shaken(structure);
+      const Eigen::MatrixX3d noise = seeded_noise(structure.particles(), 5);
+      Eigen::MatrixX3d expected = noise, velocity(structure.particles(), 3), kicked;
+      filter.apply(state.position, 0.0, expected);
+      on_every_instruction_set([&] {
+        Eigen::MatrixX3d moved = state.position, field = noise;
+        filter.apply_and_move(moved, 0.0, field, 0.01, velocity, moved);
+        EXPECT_EQ(velocity, expected);
+        EXPECT_EQ(moved, (state.position + 0.01 * expected).eval());
+        field = noise;
+        filter.apply_and_kick(state.position, 0.0, field, state.velocity, 0.01, kicked);
+        EXPECT_EQ(kicked, (state.velocity + 0.01 * expected).eval());
+      });
     }
 }
 

@@ -1,0 +1,253 @@
+// The spring pass over bands, compiled once for each instruction set. In an order that does not depend on the lanes:
+// all sets give the same bits.
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "sim/spring_pass.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/band_pass.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target: it includes the rest of this file again for each instruction set.
+#include <hwy/highway.h>
+
+#include "sim/spring_arithmetic-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace billow::sim::HWY_NAMESPACE {
+namespace {
+
+/// The last forces of one stride's springs, [position % length], each axis in a row of its own. The first vector is
+/// repeated behind the last, so that what is read from anywhere is contiguous.
+struct Ring {
+  double* row[3];
+  std::ptrdiff_t length, write, read, stride;
+  double stiffness, damping;
+};
+
+// A sum is taken this many particles behind the springs that are being computed, so that what was stored is in the
+// cache before it is loaded at another alignment.
+constexpr int lag = band_group;
+
+/// Room that a thread keeps from pass to pass.
+struct Scratch {
+  AlignedVector<double> ring, position, velocity;
+  std::vector<Ring> rings;
+};
+
+Scratch& scratch() {
+  static thread_local Scratch memory;
+  return memory;
+}
+
+/// One sweep over the particles [begin, end) of a body, and over those before them whose springs reach them.
+template <SpringDamping damping>
+class BandSweep {
+ public:
+  BandSweep(const SpringBands& bands, const SpringSink& sink, int begin, int end)
+      : rest_length_(bands.rest_length.data()),
+        sink_(sink),
+        begin_(begin),
+        end_(end),
+        strides_(static_cast<std::ptrdiff_t>(bands.stride.size())) {
+    lay_rings(bands, scratch());
+    ring_begin_ = scratch().rings.data();
+    ring_end_ = ring_begin_ + strides_;
+    waiting_ = scratch().ring.data();
+  }
+
+  // Springs of particles [from, to) and the sums of [from - lag, to - lag).
+  void springs_and_sums(const SpringColumns& segment, int from, int to) {
+    for (int i = from; i < to; i += lanes) {
+      start_springs(segment, i);
+      end_springs(i - lag);
+    }
+  }
+
+  void remaining_sums(int to) {
+    for (int i = to - lag; i < to; i += lanes) end_springs(i);
+  }
+
+ private:
+  using D = hn::ScalableTag<double>;
+  using V = hn::Vec<D>;
+  static constexpr int lanes = static_cast<int>(hn::MaxLanes(D()));
+  static_assert(band_group % lanes == 0);
+
+  static void lay_rings(const SpringBands& bands, Scratch& memory) {
+    memory.rings.resize(bands.stride.size());
+    std::size_t size = 3 * 2 * lag;
+    for (std::size_t k = 0; k < bands.stride.size(); ++k) {
+      Ring& ring = memory.rings[k];
+      ring.stride = bands.stride[k];
+      ring.length = (ring.stride + lag + 2 * lanes - 1) / lanes * lanes;
+      ring.stiffness = bands.stiffness[k];
+      ring.damping = bands.damping[k];
+      ring.write = 0;
+      ring.read = ring.length - lag - ring.stride;
+      size += 3 * static_cast<std::size_t>(ring.length + lanes);
+    }
+    memory.ring.assign(size, 0.0);
+    double* free = memory.ring.data() + 3 * 2 * lag;
+    for (Ring& ring : memory.rings)
+      for (double*& row : ring.row) row = free, free += ring.length + lanes;
+  }
+
+  // The sums of the springs that start in a particle wait here until those that end there are known.
+  HWY_INLINE double* waiting(int i) const { return waiting_ + (i & (2 * lag - 1)); }
+
+  HWY_INLINE void start_springs(const SpringColumns& segment, int i) {
+    const D d;
+    const double* rest = rest_length_ + std::ptrdiff_t{i / band_group} * strides_ * band_group + i % band_group;
+    const double* const position[3] = {segment.position[0], segment.position[1], segment.position[2]};
+    const Vector3<V> own_position = load(d, position, i);
+    Vector3<V> own_velocity;
+    if constexpr (damping != SpringDamping::none) own_velocity = load(d, segment.velocity, i);
+    Vector3<V> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring, rest += band_group) {
+      const Vector3<V> along = load(d, position, i + ring->stride) - own_position;
+      const V square = dot(along, along), rest_length = hn::Load(d, rest);
+      V scale = elastic_scale(d, square, rest_length, hn::Set(d, ring->stiffness));
+      Vector3<V> relative;
+      if constexpr (damping != SpringDamping::none)
+        relative = load(d, segment.velocity, i + ring->stride) - own_velocity;
+      const V coefficient = hn::Set(d, ring->damping);
+      if constexpr (damping == SpringDamping::projected)
+        scale = hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, coefficient));
+      Vector3<V> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
+      if constexpr (damping == SpringDamping::relative) {
+        const V c = hn::IfThenElseZero(hn::Gt(rest_length, hn::Zero(d)), coefficient);
+        force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
+                 hn::Add(force.z, hn::Mul(c, relative.z))};
+      }
+      store(ring, force);
+      sum = {hn::Add(sum.x, force.x), hn::Add(sum.y, force.y), hn::Add(sum.z, force.z)};
+    }
+    double* const wait = waiting(i);
+    hn::Store(sum.x, d, wait), hn::Store(sum.y, d, wait + 2 * lag), hn::Store(sum.z, d, wait + 4 * lag);
+  }
+
+  HWY_INLINE static void store(Ring* ring, const Vector3<V>& force) {
+    const D d;
+    const std::ptrdiff_t at = ring->write;
+    hn::Store(force.x, d, ring->row[0] + at);
+    hn::Store(force.y, d, ring->row[1] + at);
+    hn::Store(force.z, d, ring->row[2] + at);
+    if (HWY_UNLIKELY(at == 0)) {
+      hn::Store(force.x, d, ring->row[0] + ring->length);
+      hn::Store(force.y, d, ring->row[1] + ring->length);
+      hn::Store(force.z, d, ring->row[2] + ring->length);
+    }
+    ring->write = at + lanes == ring->length ? 0 : at + lanes;
+  }
+
+  HWY_INLINE void end_springs(int i) {
+    const D d;
+    const double* const wait = waiting(i);
+    Vector3<V> sum{hn::Load(d, wait), hn::Load(d, wait + 2 * lag), hn::Load(d, wait + 4 * lag)};
+    for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring) {
+      const std::ptrdiff_t read = ring->read, next = read + lanes;
+      sum.x = hn::Sub(sum.x, hn::LoadU(d, ring->row[0] + read));
+      sum.y = hn::Sub(sum.y, hn::LoadU(d, ring->row[1] + read));
+      sum.z = hn::Sub(sum.z, hn::LoadU(d, ring->row[2] + read));
+      ring->read = next >= ring->length ? next - ring->length : next;
+    }
+    if (i < begin_) return;
+    if (HWY_UNLIKELY(i + lanes > end_)) return put_last(i, sum);
+    put(d, sink_, 0, i, sum.x), put(d, sink_, 1, i, sum.y), put(d, sink_, 2, i, sum.z);
+  }
+
+  // The body ends within this vector.
+  void put_last(int i, const Vector3<V>& sum) {
+    const D d;
+    HWY_ALIGN double value[3][lanes];
+    hn::Store(sum.x, d, value[0]), hn::Store(sum.y, d, value[1]), hn::Store(sum.z, d, value[2]);
+    for (int k = 0; i + k < end_; ++k)
+      for (int axis = 0; axis < 3; ++axis) sink_.put(axis, i + k, value[axis][k]);
+  }
+
+  const double* rest_length_;
+  const SpringSink sink_;
+  const int begin_, end_;
+  const std::ptrdiff_t strides_;
+  Ring *ring_begin_, *ring_end_;
+  double* waiting_;
+};
+
+/// The last particles of a body, from `begin` on, copied with zeros behind them, so that vectors may read beyond.
+class Tail {
+ public:
+  Tail(const SpringBands& bands, const SpringColumns& whole, int begin, bool with_velocity)
+      : begin_(begin), rows_(bands.particles - begin + 2 * band_group + bands.stride.back()) {
+    copy(whole.position, bands.particles, scratch().position, segment_.position);
+    if (with_velocity) copy(whole.velocity, bands.particles, scratch().velocity, segment_.velocity);
+  }
+
+  const SpringColumns& segment() const { return segment_; }
+
+ private:
+  void copy(const double* const whole[3], int particles, AlignedVector<double>& memory, const double* columns[3]) {
+    memory.assign(3 * static_cast<std::size_t>(rows_), 0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      double* column = memory.data() + axis * rows_;
+      std::copy(whole[axis] + begin_, whole[axis] + particles, column);
+      columns[axis] = column - begin_;
+    }
+  }
+
+  int begin_, rows_;
+  SpringColumns segment_{};
+};
+
+int rounded_down(int value) { return value / band_group * band_group; }
+
+template <SpringDamping damping>
+void sweep_bands(const SpringBands& bands, const SpringColumns& whole, const SpringSink& sink, int begin, int end) {
+  const int reach = bands.stride.back();
+  // Up to here vectors that read a stride ahead stay within the body.
+  const int safe = std::max(rounded_down(bands.particles - reach), 0);
+  const int start = std::max(rounded_down(begin - reach), 0);
+  const int last = (end + band_group - 1) / band_group * band_group;
+  BandSweep<damping> sweep(bands, sink, begin, end);
+  const int middle = std::max(start, std::min(safe, last));
+  sweep.springs_and_sums(whole, start, middle);
+  if (middle < last) {
+    const Tail tail(bands, whole, middle, damping != SpringDamping::none);
+    sweep.springs_and_sums(tail.segment(), middle, last);
+  }
+  sweep.remaining_sums(last);
+}
+
+}  // namespace
+
+void sweep_springs_of_bands(const SpringBands& bands, const SpringColumns& columns, const SpringSink& sink, int begin,
+                            int end) {
+  SpringColumns whole;
+  for (int axis = 0; axis < 3; ++axis) {
+    whole.position[axis] = columns.position[axis] + bands.first_particle;
+    whole.velocity[axis] = columns.velocity[axis] + bands.first_particle;
+  }
+  const SpringSink own = sink.from(bands.first_particle);
+  if (!bands.damped)
+    sweep_bands<SpringDamping::none>(bands, whole, own, begin, end);
+  else if (bands.damping_model == DampingModel::projected)
+    sweep_bands<SpringDamping::projected>(bands, whole, own, begin, end);
+  else
+    sweep_bands<SpringDamping::relative>(bands, whole, own, begin, end);
+}
+
+}  // namespace billow::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace billow::sim {
+
+HWY_EXPORT(sweep_springs_of_bands);
+
+void sweep_springs(const SpringBands& bands, const SpringColumns& columns, const SpringSink& sink, int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(sweep_springs_of_bands)(bands, columns, sink, begin, end);
+}
+
+}  // namespace billow::sim
+#endif
