@@ -19,7 +19,8 @@ constexpr int least_particles_for_threads = 8192;
 inline int parts_of(int particles, int least_part) {
   const int threads = oneapi::tbb::this_task_arena::max_concurrency();
   if (threads == 1 || particles < least_particles_for_threads) return 1;
-  return std::clamp(particles / least_part, 1, 2 * threads);
+  const int parts = std::clamp(particles / least_part, 1, 2 * threads);
+  return parts > threads ? parts / threads * threads : parts;  // else a thread would wait for another's second part
 }
 
 /// Runs work(0) ... work(parts - 1) on the calling arena's threads. While it waits, the caller takes no other task:
@@ -30,14 +31,15 @@ void run_isolated(int parts, const Work& work) {
       [&] { oneapi::tbb::parallel_for(0, parts, work, oneapi::tbb::simple_partitioner{}); });
 }
 
-/// Runs work(begin, end) over [0, particles) in parts that begin at multiples of `unit`.
+/// Runs work(begin, end) over [0, count) in parts that begin at multiples of `unit`; count, unit and least_part are in
+/// things of `lanes` particles each.
 template <class Work>
-void for_each_range(int particles, int unit, int least_part, const Work& work) {
-  const int parts = parts_of(particles, least_part);
-  if (parts == 1) return work(0, particles);
+void for_each_range(int count, int unit, int least_part, const Work& work, int lanes = 1) {
+  const int parts = parts_of(lanes * count, lanes * least_part);
+  if (parts == 1) return work(0, count);
   const auto begin = [&](int part) {
-    if (part == parts) return particles;
-    return static_cast<int>(std::int64_t{particles} * part / parts / unit * unit);
+    if (part == parts) return count;
+    return static_cast<int>(std::int64_t{count} * part / parts / unit * unit);
   };
   run_isolated(parts, [&](int part) { work(begin(part), begin(part + 1)); });
 }

@@ -19,182 +19,218 @@ HWY_BEFORE_NAMESPACE();
 namespace billow::sim::HWY_NAMESPACE {
 namespace {
 
-/// Room that a thread keeps from pass to pass.
-struct Scratch {
-  AlignedVector<double> ring, position, velocity;
+/// The particles around the slice that a sweep has come to. A particle's position, sum and velocity, each x, y, z, 0,
+/// lie side by side: in arrays of their own, a whole number of pages apart, loads of the one would wait for stores to
+/// the other.
+template <SpringDamping damping>
+struct SliceRing {
+  static constexpr std::size_t row = slice_row(damping != SpringDamping::none);
+  double* rows;
+
+  double* position(std::size_t offset) const { return rows + offset; }
+  double* sum(std::size_t offset) const { return rows + offset + 4; }
+  double* velocity(std::size_t offset) const { return rows + offset + 8; }
 };
 
-Scratch& scratch() {
-  static thread_local Scratch memory;
-  return memory;
-}
-
-/// A block's particles, row by row, and the forces of its last springs.
-struct SliceRows {
-  const double *position, *velocity;  // entry 4 i is particle i's x
-  double* ring;                       // 4 doubles a spring
+/// The quads of one slice.
+struct Quads {
+  const std::uint32_t *other, *end;
+  const double *rest_length, *stiffness, *damping;
 };
 
-// The sums of a slice's particles to where they belong, one by one.
-inline void put_one_by_one(const SpringSlices& slices, int slice, const double sum[3][4], const SpringSink& sink) {
-  for (int k = 0; k < 4 && 4 * slice + k < slices.particles; ++k) {
-    const std::size_t row = static_cast<std::size_t>(4 * slice + k);
-    const int i = slices.order.empty() ? 4 * slice + k : slices.order[row];
-    for (int axis = 0; axis < 3; ++axis) sink.put(axis, i, sum[axis][k]);
-  }
+Quads quads_of(const SpringSlices& slices, int slice) {
+  const std::ptrdiff_t begin = slice_lanes * std::ptrdiff_t{slices.begin[static_cast<std::size_t>(slice)]},
+                       end = slice_lanes * std::ptrdiff_t{slices.begin[static_cast<std::size_t>(slice) + 1]};
+  return {slices.other.data() + begin, slices.other.data() + end, slices.rest_length.data() + begin,
+          slices.stiffness.data() + begin, slices.damping.data() + begin};
 }
 
 #if HWY_MAX_BYTES >= 32
 
-/// One value of four in all lanes.
-template <int lane>
-HWY_INLINE QV broadcast(QV v) {
+/// Where four particles' positions, sums or velocities are.
+struct Four {
+  double *a, *b, *c, *e;
+};
+
+HWY_INLINE Rows load_rows(const Four& at) {
   const Quad d;
-  const QV half = lane < 2 ? hn::ConcatLowerLower(d, v, v) : hn::ConcatUpperUpper(d, v, v);
-  return lane % 2 == 0 ? hn::DupEven(half) : hn::DupOdd(half);
+  return {hn::Load(d, at.a), hn::Load(d, at.b), hn::Load(d, at.c), hn::Load(d, at.e)};
 }
 
-// The forces of four springs into the ring.
+// One after another: the four may be the same particle.
+HWY_INLINE void subtract(const Rows& rows, const Four& from) {
+  const Quad d;
+  hn::Store(hn::Sub(hn::Load(d, from.a), rows.a), d, from.a);
+  hn::Store(hn::Sub(hn::Load(d, from.b), rows.b), d, from.b);
+  hn::Store(hn::Sub(hn::Load(d, from.c), rows.c), d, from.c);
+  hn::Store(hn::Sub(hn::Load(d, from.e), rows.e), d, from.e);
+}
+
+HWY_INLINE void add(const Rows& rows, const Four& to) {
+  const Quad d;
+  hn::Store(hn::Add(hn::Load(d, to.a), rows.a), d, to.a);
+  hn::Store(hn::Add(hn::Load(d, to.b), rows.b), d, to.b);
+  hn::Store(hn::Add(hn::Load(d, to.c), rows.c), d, to.c);
+  hn::Store(hn::Add(hn::Load(d, to.e), rows.e), d, to.e);
+}
+
+HWY_INLINE Four four_rows(double* at, std::size_t a, std::size_t b, std::size_t c, std::size_t e) {
+  return {at + a, at + b, at + c, at + e};
+}
+
+// The forces of a slice's springs: off their other ends, and their sums onto the slice's own particles.
 template <SpringDamping damping>
-HWY_INLINE void quad_forces(const SpringSlices& slices, const SliceRows& rows, int quad) {
+HWY_INLINE void slice_forces(const Quads& quads, const SliceRing<damping>& ring, std::size_t own) {
   const Quad d;
-  const std::ptrdiff_t at = 4 * std::ptrdiff_t{quad};
-  const int *first = slices.first.data() + at, *second = slices.second.data() + at;
-  const auto between = [&](const double* row, int k) HWY_ATTR {
-    return hn::Sub(hn::Load(d, row + 4 * std::ptrdiff_t{second[k]}), hn::Load(d, row + 4 * std::ptrdiff_t{first[k]}));
-  };
-  const auto quads = [&](const double* row) HWY_ATTR {
-    return Rows{between(row, 0), between(row, 1), between(row, 2), between(row, 3)};
-  };
-  const Rows along = quads(rows.position);
-  const Vector3<QV> along_axes = transposed(along);
-  const QV square = dot(along_axes, along_axes);
-  const QV rest_length = hn::Load(d, slices.rest_length.data() + at);
-  QV scale = elastic_scale(d, square, rest_length, hn::Load(d, slices.stiffness.data() + at));
-  Rows velocity;
-  QV coefficient;
-  if constexpr (damping != SpringDamping::none) {
-    velocity = quads(rows.velocity);
-    coefficient = hn::Load(d, slices.damping.data() + at);
+  constexpr std::size_t row = SliceRing<damping>::row;
+  const Vector3<QV> own_position = transposed(load_rows(four_rows(ring.position(own), 0, row, 2 * row, 3 * row)));
+  Vector3<QV> own_velocity;
+  if constexpr (damping != SpringDamping::none)
+    own_velocity = transposed(load_rows(four_rows(ring.velocity(own), 0, row, 2 * row, 3 * row)));
+  Vector3<QV> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  std::ptrdiff_t s = 0;
+  for (const std::uint32_t* other = quads.other; other != quads.end; other += slice_lanes, s += slice_lanes) {
+    const auto at = [&](double* rows) HWY_ATTR { return four_rows(rows, other[0], other[1], other[2], other[3]); };
+    const Vector3<QV> along = transposed(load_rows(at(ring.position(0)))) - own_position;
+    const QV square = dot(along, along), rest_length = hn::Load(d, quads.rest_length + s);
+    QV scale = elastic_scale(d, square, rest_length, hn::Load(d, quads.stiffness + s));
+    Vector3<QV> relative;
+    if constexpr (damping != SpringDamping::none) relative = transposed(load_rows(at(ring.velocity(0)))) - own_velocity;
+    if constexpr (damping == SpringDamping::projected)
+      scale =
+          hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, hn::Load(d, quads.damping + s)));
+    Vector3<QV> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
+    if constexpr (damping == SpringDamping::relative) {
+      const QV c = hn::Load(d, quads.damping + s);
+      force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
+               hn::Add(force.z, hn::Mul(c, relative.z))};
+    }
+    sum = {hn::Add(sum.x, force.x), hn::Add(sum.y, force.y), hn::Add(sum.z, force.z)};
+    subtract(rows_from(force), at(ring.sum(0)));
   }
-  if constexpr (damping == SpringDamping::projected)
-    scale = hn::Add(scale, damping_scale(d, square, dot(along_axes, transposed(velocity)), rest_length, coefficient));
-  double* out = rows.ring + (at & (slices.ring - 1)) * 4;
-  Rows force{hn::Mul(broadcast<0>(scale), along.a), hn::Mul(broadcast<1>(scale), along.b),
-             hn::Mul(broadcast<2>(scale), along.c), hn::Mul(broadcast<3>(scale), along.e)};
-  if constexpr (damping == SpringDamping::relative)
-    force = {hn::Add(force.a, hn::Mul(broadcast<0>(coefficient), velocity.a)),
-             hn::Add(force.b, hn::Mul(broadcast<1>(coefficient), velocity.b)),
-             hn::Add(force.c, hn::Mul(broadcast<2>(coefficient), velocity.c)),
-             hn::Add(force.e, hn::Mul(broadcast<3>(coefficient), velocity.e))};
-  hn::Store(force.a, d, out), hn::Store(force.b, d, out + 4);
-  hn::Store(force.c, d, out + 8), hn::Store(force.e, d, out + 12);
-}
-
-// The sums of four particles, added to their places.
-HWY_INLINE void sum_slice(const SpringSlices& slices, const double* ring, int slice, const SpringSink& sink) {
-  const Quad d;
-  const std::uint32_t* entry = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice)];
-  const std::uint32_t* end = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice) + 1];
-  const std::uint32_t* plus_end = entry + 4 * slices.plus[static_cast<std::size_t>(slice)];
-  QV a = hn::Zero(d), b = a, c = a, e = a;
-  const auto waiting = [&](int k) HWY_ATTR { return hn::Load(d, ring + entry[k]); };
-  for (; entry != plus_end; entry += 4)
-    a = hn::Add(a, waiting(0)), b = hn::Add(b, waiting(1)), c = hn::Add(c, waiting(2)), e = hn::Add(e, waiting(3));
-  for (; entry != end; entry += 4)
-    a = hn::Sub(a, waiting(0)), b = hn::Sub(b, waiting(1)), c = hn::Sub(c, waiting(2)), e = hn::Sub(e, waiting(3));
-  const Vector3<QV> axes = transposed({a, b, c, e});
-  const std::ptrdiff_t i = 4 * std::ptrdiff_t{slice};
-  if (i + 4 <= slices.particles && slices.order.empty()) {
-    put(d, sink, 0, i, axes.x), put(d, sink, 1, i, axes.y), put(d, sink, 2, i, axes.z);
-    return;
-  }
-  HWY_ALIGN double last[3][4];
-  hn::Store(axes.x, d, last[0]), hn::Store(axes.y, d, last[1]), hn::Store(axes.z, d, last[2]);
-  put_one_by_one(slices, slice, last, sink);
+  add(rows_from(sum), four_rows(ring.sum(own), 0, row, 2 * row, 3 * row));
 }
 
 #else  // two doubles to a vector: plain arithmetic is as fast, and has the same bits
 
+using Plain = std::array<double, 3>;
+
+inline Plain difference(const double* a, const double* b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double dot(const Plain& a, const Plain& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 template <SpringDamping damping>
-void quad_forces(const SpringSlices& slices, const SliceRows& rows, int quad) {
-  for (std::size_t s = 4 * static_cast<std::size_t>(quad), end = s + 4; s != end; ++s) {
-    const std::ptrdiff_t i = 4 * std::ptrdiff_t{slices.first[s]}, j = 4 * std::ptrdiff_t{slices.second[s]};
-    const auto between = [&](const double* row) {
-      return std::array<double, 3>{row[j] - row[i], row[j + 1] - row[i + 1], row[j + 2] - row[i + 2]};
-    };
-    const auto product = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    };
-    const std::array<double, 3> along = between(rows.position);
-    const double square = product(along, along), length = std::sqrt(square);
-    double scale = length > 0.0 ? slices.stiffness[s] * (length - slices.rest_length[s]) / length : 0.0;
-    std::array<double, 3> velocity = {};
-    if constexpr (damping != SpringDamping::none) velocity = between(rows.velocity);
+void slice_forces(const Quads& quads, const SliceRing<damping>& ring, std::size_t own) {
+  double sum[slice_lanes][3] = {};
+  std::size_t s = 0;
+  for (const std::uint32_t* other = quads.other; other != quads.end; ++other, ++s) {
+    const std::size_t lane = s % slice_lanes, i = own + SliceRing<damping>::row * lane, j = *other;
+    const double rest_length = quads.rest_length[s];
+    const Plain along = difference(ring.position(j), ring.position(i));
+    const double square = dot(along, along), length = std::sqrt(square);
+    double scale = std::min(length, rest_length) > 0.0 ? quads.stiffness[s] * (length - rest_length) / length : 0.0;
+    Plain relative = {};
+    if constexpr (damping != SpringDamping::none) relative = difference(ring.velocity(j), ring.velocity(i));
     if constexpr (damping == SpringDamping::projected)
-      scale += square > 0.0 ? slices.damping[s] * product(along, velocity) / square : 0.0;
-    double* out = rows.ring + static_cast<std::ptrdiff_t>(s & (static_cast<std::size_t>(slices.ring) - 1)) * 4;
-    for (int axis = 0; axis < 3; ++axis) {
-      out[axis] = scale * along[axis];
-      if constexpr (damping == SpringDamping::relative) out[axis] += slices.damping[s] * velocity[axis];
+      scale += std::min(square, rest_length) > 0.0 ? quads.damping[s] * dot(along, relative) / square : 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double force = scale * along[axis];
+      if constexpr (damping == SpringDamping::relative) force += quads.damping[s] * relative[axis];
+      sum[lane][axis] += force;
+      ring.sum(j)[axis] -= force;
     }
   }
-}
-
-void sum_slice(const SpringSlices& slices, const double* ring, int slice, const SpringSink& sink) {
-  const std::uint32_t* entry = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice)];
-  const std::uint32_t* end = slices.entry.data() + slices.entry_begin[static_cast<std::size_t>(slice) + 1];
-  const std::uint32_t* plus_end = entry + 4 * slices.plus[static_cast<std::size_t>(slice)];
-  double sum[3][4] = {};
-  for (; entry != end; entry += 4)
-    for (int k = 0; k < 4; ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        sum[axis][k] += entry < plus_end ? ring[entry[k] + axis] : -ring[entry[k] + axis];
-  put_one_by_one(slices, slice, sum, sink);
+  for (std::size_t lane = 0; lane < slice_lanes; ++lane)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      ring.sum(own + SliceRing<damping>::row * lane)[axis] += sum[lane][axis];
 }
 
 #endif
 
+/// One sweep over slices [begin, end), and over those around them whose springs reach them.
 template <SpringDamping damping>
-void sweep_slices(const SpringSlices& slices, const SpringColumns& whole, const SpringSink& sink,
-                  const SpringSlices::Block& block) {
-  Scratch& memory = scratch();
-  const auto block_rows = [&](const double* const column[3], AlignedVector<double>& rows) {
-    rows.resize(4 * static_cast<std::size_t>(block.high - block.low));
-    ordered_rows_of(column, slices.order, block.low, block.high, rows.data());
-    return rows.data() - 4 * std::ptrdiff_t{block.low};
-  };
-  memory.ring.resize(4 * static_cast<std::size_t>(slices.ring + 1));
-  std::fill(memory.ring.end() - 4, memory.ring.end(), 0.0);
-  const SliceRows rows{block_rows(whole.position, memory.position),
-                       damping == SpringDamping::none ? nullptr : block_rows(whole.velocity, memory.velocity),
-                       memory.ring.data()};
-  int quad = block.first_quad;
-  for (int slice = block.first_slice; slice < block.last_slice; ++slice) {
-    const int ahead = std::min(slice + slice_lead, block.last_slice - 1);
-    for (const int end = slices.slice_quads[static_cast<std::size_t>(ahead)]; quad < end; ++quad)
-      quad_forces<damping>(slices, rows, quad);
-    sum_slice(slices, rows.ring, slice, sink);
+class SliceSweep {
+ public:
+  SliceSweep(const SpringSlices& slices, const SpringColumns& columns, double* const out[3])
+      : slices_(slices), columns_(columns), out_(out) {
+    static thread_local AlignedVector<double> memory;  // kept from pass to pass
+    memory.resize(SliceRing<damping>::row * static_cast<std::size_t>(slices.ring));
+    ring_.rows = memory.data();
   }
-}
+
+  void run(int begin, int end) {
+    const int first = std::max(begin - slices_.reach, 0), last = std::min(end + slices_.reach, slices_.slices);
+    int loaded = std::max(first - slices_.reach, 0), done = begin;
+    for (int slice = first; slice < last; ++slice) {
+      for (const int needed = std::min(slice + slices_.reach + 1, slices_.slices); loaded < needed; ++loaded)
+        load(loaded);
+      slice_forces<damping>(quads_of(slices_, slice), ring_, row(slice));
+      if (slice - slices_.reach >= done) finish(done++);
+    }
+    while (done < end) finish(done++);
+  }
+
+ private:
+  std::size_t row(int slice) const {
+    return SliceRing<damping>::row * static_cast<std::size_t>((slice_lanes * slice) & (slices_.ring - 1));
+  }
+
+  void load(int slice) {
+    const int begin = slice_lanes * slice, end = std::min(begin + slice_lanes, slices_.particles);
+    std::size_t r = row(slice);
+    for (int p = begin; p < end; ++p, r += SliceRing<damping>::row) {
+      const int i = slices_.order[static_cast<std::size_t>(p)];
+      const auto copy = [i](const double* const column[3], double* to) {
+        to[0] = column[0][i], to[1] = column[1][i], to[2] = column[2][i], to[3] = 0.0;
+      };
+      copy(columns_.position, ring_.position(r));
+      std::fill_n(ring_.sum(r), 4, 0.0);
+      if constexpr (damping != SpringDamping::none) copy(columns_.velocity, ring_.velocity(r));
+    }
+  }
+
+  void finish(int slice) {
+    const int begin = slice_lanes * slice, end = std::min(begin + slice_lanes, slices_.particles);
+    std::size_t r = row(slice);
+    for (int p = begin; p < end; ++p, r += SliceRing<damping>::row) {
+      const int i = slices_.order[static_cast<std::size_t>(p)];
+      const double* const sum = ring_.sum(r);
+      out_[0][i] += sum[0], out_[1][i] += sum[1], out_[2][i] += sum[2];
+    }
+  }
+
+  const SpringSlices& slices_;
+  const SpringColumns& columns_;
+  double* const* const out_;
+  SliceRing<damping> ring_;
+};
 
 }  // namespace
 
-void sweep_springs_of_slices(const SpringSlices& slices, const SpringColumns& columns, const SpringSink& sink,
-                             int block) {
+void add_springs_of_slices(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin,
+                           int end) {
   SpringColumns whole;
+  double* out[3];
   for (int axis = 0; axis < 3; ++axis) {
     whole.position[axis] = columns.position[axis] + slices.first_particle;
     whole.velocity[axis] = columns.velocity[axis] + slices.first_particle;
+    out[axis] = sum[axis] + slices.first_particle;
   }
-  const SpringSink own = sink.from(slices.first_particle);
-  const SpringSlices::Block& run = slices.block[static_cast<std::size_t>(block)];
   if (!slices.damped)
-    sweep_slices<SpringDamping::none>(slices, whole, own, run);
+    SliceSweep<SpringDamping::none>(slices, whole, out).run(begin, end);
   else if (slices.damping_model == DampingModel::projected)
-    sweep_slices<SpringDamping::projected>(slices, whole, own, run);
+    SliceSweep<SpringDamping::projected>(slices, whole, out).run(begin, end);
   else
-    sweep_slices<SpringDamping::relative>(slices, whole, own, run);
+    SliceSweep<SpringDamping::relative>(slices, whole, out).run(begin, end);
+}
+
+void put_sums_of_columns(const SpringSink& sink, const double* const sum[3], int begin, int end) {
+  const hn::ScalableTag<double> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  int i = begin;
+  for (; i + lanes <= end; i += lanes)
+    for (int axis = 0; axis < 3; ++axis) put(d, sink, axis, i, hn::LoadU(d, sum[axis] + i));
+  for (; i < end; ++i)
+    for (int axis = 0; axis < 3; ++axis) sink.put(axis, i, sum[axis][i]);
 }
 
 }  // namespace billow::sim::HWY_NAMESPACE
@@ -203,10 +239,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace billow::sim {
 
-HWY_EXPORT(sweep_springs_of_slices);
+HWY_EXPORT(add_springs_of_slices);
+HWY_EXPORT(put_sums_of_columns);
 
-void sweep_springs(const SpringSlices& slices, const SpringColumns& columns, const SpringSink& sink, int block) {
-  HWY_DYNAMIC_DISPATCH(sweep_springs_of_slices)(slices, columns, sink, block);
+void add_springs(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(add_springs_of_slices)(slices, columns, sum, begin, end);
+}
+
+void put_sums(const SpringSink& sink, const double* const sum[3], int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(put_sums_of_columns)(sink, sum, begin, end);
 }
 
 }  // namespace billow::sim

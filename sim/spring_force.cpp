@@ -46,6 +46,20 @@ void add_other(const Structure& structure, const Body& body, const State& state,
   }
 }
 
+// Slices take particles in an order of their own: their sums wait in `out`, and what else a sink does comes after all.
+void sweep_slices(const SpringSlices& slices, const SpringColumns& columns, const SpringSink& sink) {
+  const int first = slices.first_particle;
+  if (sink.mass)
+    for (double* out : sink.out) std::fill_n(out + first, slices.particles, 0.0);
+  // A part repeats the springs of two reaches.
+  for_each_range(
+      slices.slices, 1, std::max(least_part / slice_lanes, 8 * slices.reach),
+      [&](int begin, int end) { add_springs(slices, columns, sink.out, begin, end); }, slice_lanes);
+  if (!sink.mass) return;
+  const SpringSink own = sink.from(first);
+  for_each_range(slices.particles, 1, least_part, [&](int begin, int end) { put_sums(own, own.out, begin, end); });
+}
+
 }  // namespace
 
 void SpringForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
@@ -67,18 +81,13 @@ void SpringForce::sweep(const State& state, const SpringSink& sink) const {
     for_each_range(bands.particles, band_group, std::max(least_part, 8 * bands.stride.back()),
                    [&](int begin, int end) { sweep_springs(bands, columns, own, begin, end); });
   }
-  for (const SpringSlices& slices : plan_.slices) {
-    const SpringSink own = sink_of(structure_.body[slices.body]);
-    for_each_block(slices.particles, static_cast<int>(slices.block.size()),
-                   [&](int block) { sweep_springs(slices, columns, own, block); });
-  }
+  for (const SpringSlices& slices : plan_.slices) sweep_slices(slices, columns, sink_of(structure_.body[slices.body]));
   for (const int b : plan_.others) {
     const Body& body = structure_.body[b];
     Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(body.particles, 3);
     add_other(structure_, body, state, sum);
-    const SpringSink own = sink_of(body).from(body.first_particle);
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < body.particles; ++i) own.put(axis, i, sum(i, axis));
+    const double* const columns_of_sum[3] = {sum.col(0).data(), sum.col(1).data(), sum.col(2).data()};
+    put_sums(sink_of(body).from(body.first_particle), columns_of_sum, 0, body.particles);
   }
 }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "sim/locality.h"
@@ -62,148 +62,94 @@ SpringBands make_bands(const Structure& structure, const Body& body, const Local
   return bands;
 }
 
-constexpr int lanes = 4;           // springs in a quad, particles in a slice
-constexpr int block_slices = 512;  // at least: 2048 particles, some hundred kilobytes
-
-void append_springs(const Structure& structure, const LocalSprings& local, SpringSlices& slices) {
-  for (std::size_t e = 0; e < local.ends.size(); ++e) {
-    slices.first.push_back(local.ends[e].first);
-    slices.second.push_back(local.ends[e].second);
-    slices.rest_length.push_back(structure.rest_length(local.spring[e]));
-    slices.stiffness.push_back(structure.stiffness(local.spring[e]));
-    slices.damping.push_back(structure.damping(local.spring[e]));
-  }
-  while (slices.first.size() % lanes != 0) {  // a spring of no stiffness at the last one's place
-    slices.first.push_back(slices.first.back());
-    slices.second.push_back(slices.second.back());
-    slices.rest_length.push_back(1.0);
-    slices.stiffness.push_back(0.0);
-    slices.damping.push_back(0.0);
-  }
-}
-
-/// For every particle, the springs that start and that end in it, ascending.
-struct Incidence {
-  std::vector<std::vector<int>> starting, ending;
+/// A spring as its owner sees it.
+struct OwnedSpring {
+  int other = 0;   // particle of the body
+  int spring = 0;  // in the structure
 };
+using Owned = std::vector<std::vector<OwnedSpring>>;
 
-Incidence incidence(const LocalSprings& local, int particles) {
-  Incidence at{std::vector<std::vector<int>>(static_cast<std::size_t>(particles)),
-               std::vector<std::vector<int>>(static_cast<std::size_t>(particles))};
+// Every spring to that of its ends which owns fewer.
+Owned shared_out(const LocalSprings& local, int particles) {
+  Owned owned(static_cast<std::size_t>(particles));
   for (std::size_t e = 0; e < local.ends.size(); ++e) {
-    at.starting[static_cast<std::size_t>(local.ends[e].first)].push_back(static_cast<int>(e));
-    at.ending[static_cast<std::size_t>(local.ends[e].second)].push_back(static_cast<int>(e));
+    const auto [i, j] = local.ends[e];
+    const bool first = owned[static_cast<std::size_t>(i)].size() <= owned[static_cast<std::size_t>(j)].size();
+    owned[static_cast<std::size_t>(first ? i : j)].push_back({first ? j : i, local.spring[e]});
   }
-  return at;
+  return owned;
 }
 
-// Four lists side by side, the shorter ones filled up with `filler`.
-int append_side_by_side(const std::vector<std::vector<int>>& lists, int slice, std::uint32_t mask, std::uint32_t filler,
-                        std::vector<std::uint32_t>& entry) {
-  const auto list = [&](int lane) -> const std::vector<int>& {
-    static const std::vector<int> none;
-    const std::size_t row = static_cast<std::size_t>(lanes * slice + lane);
-    return row < lists.size() ? lists[row] : none;
+// Within windows of the order, particles that own many first: then those of a slice own equally many.
+void even_out(const Owned& owned, std::vector<int>& order) {
+  constexpr std::ptrdiff_t window = 64;
+  const auto more = [&](int a, int b) {
+    return owned[static_cast<std::size_t>(a)].size() > owned[static_cast<std::size_t>(b)].size();
   };
-  std::size_t longest = 0;
-  for (int lane = 0; lane < lanes; ++lane) longest = std::max(longest, list(lane).size());
-  for (std::size_t k = 0; k < longest; ++k)
-    for (int lane = 0; lane < lanes; ++lane)
-      entry.push_back(k < list(lane).size() ? (static_cast<std::uint32_t>(list(lane)[k]) & mask) * 4 : filler);
-  return static_cast<int>(longest);
-}
-
-// The springs that particles [0, 4 t + 4) start, in whole quads.
-std::vector<int> quads_before(const LocalSprings& local, int slice_count) {
-  std::vector<int> quads(static_cast<std::size_t>(slice_count));
-  std::size_t e = 0;
-  for (int t = 0; t < slice_count; ++t) {
-    while (e < local.ends.size() && local.ends[e].first < lanes * (t + 1)) ++e;
-    quads[static_cast<std::size_t>(t)] = static_cast<int>((e + lanes - 1) / lanes);
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto end = order.end() - begin > window ? begin + window : order.end();
+    std::stable_sort(begin, end, more);
+    begin = end;
   }
-  return quads;
 }
 
-// The first spring that each slice's sums need.
-std::vector<int> earliest_springs(const Incidence& at, const std::vector<int>& quads) {
-  std::vector<int> earliest(quads.size());
-  for (std::size_t t = 0; t < quads.size(); ++t) {
-    earliest[t] = lanes * quads[t];
-    for (std::size_t row = lanes * t; row < std::min(lanes * (t + 1), at.ending.size()); ++row) {
-      if (!at.starting[row].empty()) earliest[t] = std::min(earliest[t], at.starting[row].front());
-      if (!at.ending[row].empty()) earliest[t] = std::min(earliest[t], at.ending[row].front());
-    }
-  }
-  return earliest;
-}
-
-int last_quad_for(const SpringSlices& slices, int slice) {
-  const int last = static_cast<int>(slices.slice_quads.size()) - 1;
-  return slices.slice_quads[static_cast<std::size_t>(std::min(slice + slice_lead, last))];
-}
-
-SpringSlices::Block make_block(const SpringSlices& slices, const std::vector<int>& earliest, int begin, int end) {
-  SpringSlices::Block block{begin, end, 0, lanes * begin, std::min(lanes * end, slices.particles)};
-  const int first_spring = *std::min_element(earliest.begin() + begin, earliest.begin() + end);
-  block.first_quad = first_spring / lanes;
-  for (int s = lanes * block.first_quad; s < lanes * slices.slice_quads[static_cast<std::size_t>(end - 1)]; ++s) {
-    block.low = std::min(block.low, slices.first[static_cast<std::size_t>(s)]);
-    block.high = std::max(block.high, slices.second[static_cast<std::size_t>(s)] + 1);
-  }
-  return block;
-}
-
-// A block repeats the springs that reach into it from before, so it should be long compared with that reach.
-int slices_per_block(const SpringSlices& slices) {
+int farthest(const Owned& owned, const std::vector<int>& place) {
   int reach = 0;
-  for (std::size_t s = 0; s < slices.first.size(); ++s) reach = std::max(reach, slices.second[s] - slices.first[s]);
-  return std::max(block_slices, 4 * reach / lanes);
+  for (std::size_t i = 0; i < owned.size(); ++i)
+    for (const OwnedSpring& spring : owned[i])
+      reach = std::max(reach,
+                       std::abs(place[i] / slice_lanes - place[static_cast<std::size_t>(spring.other)] / slice_lanes));
+  return reach;
 }
 
-// Ends as places in `order`.
-LocalSprings renumbered(LocalSprings local, const std::vector<int>& order) {
-  if (order.empty()) return local;
-  const std::vector<int> rank = ranks(order);
-  std::vector<std::pair<std::pair<int, int>, int>> keyed;
-  for (std::size_t e = 0; e < local.ends.size(); ++e) {
-    const int i = rank[static_cast<std::size_t>(local.ends[e].first)];
-    const int j = rank[static_cast<std::size_t>(local.ends[e].second)];
-    keyed.emplace_back(std::minmax(i, j), local.spring[e]);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  for (std::size_t e = 0; e < keyed.size(); ++e) std::tie(local.ends[e], local.spring[e]) = keyed[e];
-  return local;
+// The springs of the four particles of slice t side by side; fewer than others' are filled up with ones to itself.
+void append_slice(const Structure& structure, const Owned& owned, const std::vector<int>& place, int t,
+                  SpringSlices& slices) {
+  const auto particle = [&](int lane) {
+    const int p = slice_lanes * t + lane;
+    return p < slices.particles ? slices.order[static_cast<std::size_t>(p)] : -1;
+  };
+  const std::size_t row = slice_row(slices.damped);
+  std::size_t longest = 0;
+  for (int lane = 0; lane < slice_lanes; ++lane)
+    if (particle(lane) >= 0) longest = std::max(longest, owned[static_cast<std::size_t>(particle(lane))].size());
+  for (std::size_t k = 0; k < longest; ++k)
+    for (int lane = 0; lane < slice_lanes; ++lane) {
+      const int i = particle(lane);
+      const bool real = i >= 0 && k < owned[static_cast<std::size_t>(i)].size();
+      const OwnedSpring spring = real ? owned[static_cast<std::size_t>(i)][k] : OwnedSpring{};
+      const int end = real ? place[static_cast<std::size_t>(spring.other)] : slice_lanes * t + lane;
+      slices.other.push_back(static_cast<std::uint32_t>(static_cast<std::size_t>(end & (slices.ring - 1)) * row));
+      slices.rest_length.push_back(real ? structure.rest_length(spring.spring) : 0.0);
+      slices.stiffness.push_back(real ? structure.stiffness(spring.spring) : 0.0);
+      slices.damping.push_back(real ? structure.damping(spring.spring) : 0.0);
+    }
+  slices.begin.push_back(static_cast<int>(slices.other.size()) / slice_lanes);
 }
 
-SpringSlices make_slices(const Structure& structure, const Body& body, const LocalSprings& as_built) {
+SpringSlices make_slices(const Structure& structure, const Body& body, const LocalSprings& local) {
   SpringSlices slices;
-  slices.order = local_order(as_built.ends, body.particles);
-  const LocalSprings local = renumbered(as_built, slices.order);
   slices.first_particle = body.first_particle;
   slices.particles = body.particles;
   slices.damped = is_damped(structure, body);
   slices.damping_model = body.damping_model;
-  append_springs(structure, local, slices);
-  const int count = (body.particles + lanes - 1) / lanes;
-  const Incidence at = incidence(local, body.particles);
-  slices.slice_quads = quads_before(local, count);
-  const std::vector<int> earliest = earliest_springs(at, slices.slice_quads);
-  unsigned waiting = lanes;
-  for (int t = 0; t < count; ++t)
-    waiting = std::max(waiting,
-                       static_cast<unsigned>(lanes * last_quad_for(slices, t) - earliest[static_cast<std::size_t>(t)]));
-  slices.ring = static_cast<int>(std::bit_ceil(waiting));
-  const std::uint32_t mask = static_cast<std::uint32_t>(slices.ring) - 1;
-  const std::uint32_t zero = static_cast<std::uint32_t>(slices.ring) * 4;
-  for (int t = 0; t < count; ++t) {
-    slices.entry_begin.push_back(static_cast<int>(slices.entry.size()));
-    slices.plus.push_back(append_side_by_side(at.starting, t, mask, zero, slices.entry));
-    append_side_by_side(at.ending, t, mask, zero, slices.entry);
+  slices.slices = (body.particles + slice_lanes - 1) / slice_lanes;
+  slices.order = local_order(local.ends, body.particles);
+  if (slices.order.empty()) {
+    slices.order.resize(static_cast<std::size_t>(body.particles));
+    std::iota(slices.order.begin(), slices.order.end(), 0);
   }
-  slices.entry_begin.push_back(static_cast<int>(slices.entry.size()));
-  const int step = slices_per_block(slices);
-  for (int t = 0; t < count; t += step)
-    slices.block.push_back(make_block(slices, earliest, t, std::min(t + step, count)));
+  Owned owned = shared_out(local, body.particles);
+  even_out(owned, slices.order);
+  const std::vector<int> place = ranks(slices.order);
+  for (std::vector<OwnedSpring>& springs : owned)
+    std::stable_sort(springs.begin(), springs.end(), [&](const OwnedSpring& a, const OwnedSpring& b) {
+      return place[static_cast<std::size_t>(a.other)] < place[static_cast<std::size_t>(b.other)];
+    });
+  slices.reach = farthest(owned, place);
+  slices.ring = static_cast<int>(std::bit_ceil(static_cast<unsigned>(slice_lanes * (2 * slices.reach + 1))));
+  slices.begin.push_back(0);
+  for (int t = 0; t < slices.slices; ++t) append_slice(structure, owned, place, t, slices);
   return slices;
 }
 

@@ -1,6 +1,7 @@
 // The springs of a structure laid out for the vector passes: derived once, then read in order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,35 +26,30 @@ struct SpringBands {
   AlignedVector<double> rest_length;       // [m]
 };
 
-/// Springs of any other body, sorted by their first end and taken four at a time; particles are taken four at a time
-/// too, a slice. A slice adds the forces of the springs that start in it and subtracts those of the springs that end in
-/// it, both being numbered by their place in `order`. Springs' forces wait for that in a ring, each at its number
-/// modulo the ring's size.
+/// Springs of any other body. Particles are taken four at a time, a slice, as they stand in `order`; each owns half of
+/// its springs, so that the four of a slice own about equally many. Places are numbers in that order. A sweep keeps the
+/// particles around the slice that it has come to in a ring: place p is row p % ring.
 struct SpringSlices {
   int body = 0;  // of the structure
   int first_particle = 0, particles = 0;
   bool damped = false;
   DampingModel damping_model = DampingModel::projected;
-  std::vector<int> order;                 //         the body's particles as the slices take them; empty: as they are
-  std::vector<int> first, second;         //         ends, as places in that order; padded to whole quads
-  AlignedVector<double> rest_length;      // [m]
-  AlignedVector<double> stiffness;        // [N/m]   0 in the padding
-  AlignedVector<double> damping;          // [N s/m]
-  int ring = 0;                           //         springs in the ring, a power of two; slot `ring` stays zero
-  std::vector<int> slice_quads;           //         quads that must have been done before slice t can be summed
-  std::vector<int> entry_begin;           //         slice t's places in the ring: entry[entry_begin[t]] ...
-  std::vector<int> plus;                  //         of which this many, times four, are added, the rest subtracted
-  std::vector<std::uint32_t> entry;       //         offset in the ring, in doubles; four particles side by side
-  struct Block {                          //         a run of slices small enough for the cache
-    int first_slice = 0, last_slice = 0;  //         [first, last)
-    int first_quad = 0;                   //         the earliest that it needs
-    int low = 0, high = 0;                //         [low, high) particles that its springs touch
-  };
-  std::vector<Block> block;
+  int slices = 0;
+  int ring = 0;            //         rows, a power of two
+  int reach = 0;           //         slices: no spring ends farther from the slice that owns it
+  std::vector<int> order;  //         the body's particles as the slices take them
+  std::vector<int> begin;  //         slice t owns quads begin[t] ... begin[t + 1] - 1, four springs side by side
+  std::vector<std::uint32_t> other;   //         where in the ring, in doubles, the end is that is not the owner
+  AlignedVector<double> rest_length;  // [m]     0 where a particle owns fewer springs than others of its slice
+  AlignedVector<double> stiffness;    // [N/m]
+  AlignedVector<double> damping;      // [N s/m]
 };
 
-/// Slices whose springs are computed ahead of the one that is being summed.
-constexpr int slice_lead = 2;
+/// Particles of a slice.
+constexpr int slice_lanes = 4;
+
+/// Doubles of a row of the ring: position, sum and, where springs damp, velocity; a power of two.
+constexpr std::size_t slice_row(bool damped) { return damped ? 16 : 8; }
 
 /// Each body of linear springs as bands or as slices; bodies of another model and of none are left to the plain pass.
 struct SpringPlan {

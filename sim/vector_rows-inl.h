@@ -47,18 +47,24 @@ HWY_INLINE Vector3<QV> transposed(const Rows& rows) {
           hn::ConcatUpperUpper(d, xz_ce, xz_ab)};
 }
 
+/// Four rows of x, y, z, 0.
+HWY_INLINE Rows rows_from(const Vector3<QV>& axes) {
+  const Quad d;
+  const QV xy_02 = hn::InterleaveLower(d, axes.x, axes.y), xy_13 = hn::InterleaveUpper(d, axes.x, axes.y);
+  const QV z_02 = hn::InterleaveLower(d, axes.z, hn::Zero(d)), z_13 = hn::InterleaveUpper(d, axes.z, hn::Zero(d));
+  return {hn::ConcatLowerLower(d, z_02, xy_02), hn::ConcatLowerLower(d, z_13, xy_13),
+          hn::ConcatUpperUpper(d, z_02, xy_02), hn::ConcatUpperUpper(d, z_13, xy_13)};
+}
+
 /// Particles [begin, end) of the columns, each as a row of four at `rows`.
 inline void rows_of(const double* const column[3], int begin, int end, double* rows) {
   const Quad d;
   int i = begin;
   for (; i + 4 <= end; i += 4, rows += 16) {
-    const QV x = hn::LoadU(d, column[0] + i), y = hn::LoadU(d, column[1] + i), z = hn::LoadU(d, column[2] + i);
-    const QV xy_02 = hn::InterleaveLower(d, x, y), xy_13 = hn::InterleaveUpper(d, x, y);
-    const QV z_02 = hn::InterleaveLower(d, z, hn::Zero(d)), z_13 = hn::InterleaveUpper(d, z, hn::Zero(d));
-    hn::Store(hn::ConcatLowerLower(d, z_02, xy_02), d, rows);
-    hn::Store(hn::ConcatLowerLower(d, z_13, xy_13), d, rows + 4);
-    hn::Store(hn::ConcatUpperUpper(d, z_02, xy_02), d, rows + 8);
-    hn::Store(hn::ConcatUpperUpper(d, z_13, xy_13), d, rows + 12);
+    const Rows four =
+        rows_from({hn::LoadU(d, column[0] + i), hn::LoadU(d, column[1] + i), hn::LoadU(d, column[2] + i)});
+    hn::Store(four.a, d, rows), hn::Store(four.b, d, rows + 4);
+    hn::Store(four.c, d, rows + 8), hn::Store(four.e, d, rows + 12);
   }
   plain_rows_of(column, i, end, rows);
 }
