@@ -11,6 +11,7 @@
 #include "sim/filter.h"
 #include "sim/filtered_step.h"
 #include "sim/forces.h"
+#include "sim/huge_pages.h"
 #include "sim/spring_force.h"
 
 namespace billow::bench {
@@ -23,6 +24,7 @@ constexpr double step_size = 1e-6;  // [s] so small that the cloth stays as it i
 sim::State stretched(const sim::Structure& structure) {
   sim::State state = sim::rest_state(structure);
   state.position.col(0) *= 1.02;
+  sim::use_huge_pages(state.position), sim::use_huge_pages(state.velocity);  // as a run's are
   return state;
 }
 
@@ -58,6 +60,7 @@ void force_pass(benchmark::State& run, const std::string& name, int threads) {
   const Prepared& on = prepared(name);
   const sim::State state = stretched(on.structure);
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(on.structure.particles(), 3);
+  sim::use_huge_pages(force);
   measure(run, on.structure, threads, [&] { on.springs.add_force(state, force); });
 }
 

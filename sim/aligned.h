@@ -5,9 +5,12 @@
 #include <new>
 #include <vector>
 
+#include "sim/huge_pages.h"
+
 namespace billow::sim {
 
-/// Allocates at multiples of 64 bytes: a cache line, and the widest vector of any processor that we know.
+/// Allocates at multiples of 64 bytes: a cache line, and the widest vector of any processor that we know. Large arrays
+/// are on huge pages from the first.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -16,7 +19,11 @@ struct CacheLineAllocator {
   CacheLineAllocator() = default;
   template <class Other>
   CacheLineAllocator(const CacheLineAllocator<Other>&) {}
-  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), alignment)); }
+  T* allocate(std::size_t count) {
+    void* const memory = ::operator new(count * sizeof(T), alignment);
+    use_huge_pages(memory, count * sizeof(T));
+    return static_cast<T*>(memory);
+  }
   void deallocate(T* memory, std::size_t) { ::operator delete(memory, alignment); }
   bool operator==(const CacheLineAllocator&) const { return true; }
 };

@@ -37,6 +37,9 @@ std::vector<Pair> spring_neighbours(const Structure& structure) {
 // rounding of a mesh file's decimals.
 constexpr double radius_slack = 1e-4;
 
+// [mean rest length] Distances are rounded to this, so that the equal neighbours of a regular cloth have equal weights.
+constexpr double distance_grain = 0x1p-30;
+
 // All pairs of one body within `radius` [m] at rest: a sweep along x.
 void append_pairs_within(const Structure& structure, const Body& body, double radius, std::vector<Pair>& pairs) {
   std::vector<int> order(body.particles);
@@ -162,12 +165,15 @@ Filter::Filter(const Structure& structure, FilterOptions options)
   distance_.resize(pairs.size());
   for (std::size_t e = 0; e < pairs.size(); ++e) {
     const auto [i, j] = pairs[e];
-    distance_(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
+    const double distance = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
+    distance_(e) = std::round(distance / distance_grain) * distance_grain;
   }
   plan_ = FilterPlan(structure, pattern_);
   strength_ = Eigen::VectorXd::Ones(structure.particles());
   if (options_.form == FilterForm::conserving) keep_spectrum_positive();
-  if (constant_weights()) rest_weights_ = arranged(compute_weights(nullptr, 0.0));
+  if (!constant_weights()) return;
+  rest_weights_ = arranged(compute_weights(nullptr, 0.0));
+  plan_.share_equal_groups(rest_weights_);
 }
 
 bool Filter::constant_weights() const {
@@ -210,7 +216,7 @@ void Filter::keep_spectrum_positive() {
   double strongest = 0.0;  // the time of the smallest lambda
   for (const auto& [time, factor] : options_.lambda_keys)
     if (factor < key_factor(options_.lambda_keys, strongest)) strongest = time;
-  const AlignedVector<double> weights = arranged(compute_weights(nullptr, strongest));
+  const PlacedWeights weights = arranged(compute_weights(nullptr, strongest));
   const Eigen::VectorXd free = structure_.inverse_mass.cwiseSign();
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(structure_.body.size());
   Eigen::MatrixX3d v = free.asDiagonal() * seeded_noise(structure_.particles(), 1);
@@ -256,11 +262,7 @@ void Filter::symmetrise_with_masses(Weights& weights) const {
   weights = std::move(result);
 }
 
-AlignedVector<double> Filter::arranged(const Weights& weights) const {
-  AlignedVector<double> places;
-  plan_.arrange(weights.self, weights.neighbour, places);
-  return places;
-}
+PlacedWeights Filter::arranged(const Weights& weights) const { return plan_.place(weights.self, weights.neighbour); }
 
 namespace {
 
@@ -272,7 +274,7 @@ FilterColumns columns_of(const Eigen::MatrixX3d& in, Eigen::MatrixX3d& out) {
 
 }  // namespace
 
-void Filter::run(const AlignedVector<double>& weights, const FilterColumns& columns) const {
+void Filter::run(const PlacedWeights& weights, const FilterColumns& columns) const {
   for (const FilterBands& bands : plan_.bands)
     for_each_range(bands.particles, band_group, least_part,
                    [&](int begin, int end) { filter_bands(bands, weights, columns, begin, end); });
@@ -282,7 +284,7 @@ void Filter::run(const AlignedVector<double>& weights, const FilterColumns& colu
 }
 
 // Into a second field that each thread keeps, which then changes places with the first.
-void Filter::apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const {
+void Filter::apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field) const {
   static thread_local Eigen::MatrixX3d filtered;
   filtered.resize(field.rows(), 3);
   run(weights, columns_of(field, filtered));
@@ -306,7 +308,7 @@ void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX
   std::vector<BodyMotion> before;
   if (restores_momenta())
     for (const Body& body : structure_.body) before.push_back(body_motion(structure_, body, position, field));
-  with_weights(position, time, [&](const AlignedVector<double>& weights) {
+  with_weights(position, time, [&](const PlacedWeights& weights) {
     for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field);
   });
   for (std::size_t b = 0; b < before.size(); ++b)
@@ -317,7 +319,7 @@ void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX
 // The last pass writes where `columns` say.
 void Filter::apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
                         FilterColumns columns) const {
-  with_weights(position, time, [&](const AlignedVector<double>& weights) {
+  with_weights(position, time, [&](const PlacedWeights& weights) {
     for (int pass = 1; pass < options_.passes; ++pass) apply_once(weights, field);
     for (int axis = 0; axis < 3; ++axis) columns.in[axis] = field.col(axis).data();
     run(weights, columns);

@@ -74,10 +74,10 @@ class Filter {
   void symmetrise_with_masses(Weights& weights) const;
   void soften(Weights& weights) const;
   void keep_spectrum_positive();
-  AlignedVector<double> arranged(const Weights& weights) const;
-  void apply_once(const AlignedVector<double>& weights, Eigen::MatrixX3d& field) const;
+  PlacedWeights arranged(const Weights& weights) const;
+  void apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field) const;
   void apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns) const;
-  void run(const AlignedVector<double>& weights, const FilterColumns& columns) const;
+  void run(const PlacedWeights& weights, const FilterColumns& columns) const;
   template <class Work>
   void with_weights(const Eigen::MatrixX3d& position, double time, const Work& work) const;
   bool constant_weights() const;
@@ -89,8 +89,8 @@ class Filter {
   NeighbourRows pattern_;
   Eigen::VectorXd distance_;  // rest distance of each entry of the pattern, in mean rest lengths
   FilterPlan plan_;
-  AlignedVector<double> rest_weights_;  // constant ones, in the plan's order
-  Eigen::VectorXd strength_;  // (n) share of the conserving form's exchange that keeps its body's spectrum in [0, 1]
+  PlacedWeights rest_weights_;  // constant ones, in the plan's order
+  Eigen::VectorXd strength_;    // (n) share of the conserving form's exchange that keeps its body's spectrum in [0, 1]
 };
 
 }  // namespace billow::sim

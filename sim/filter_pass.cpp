@@ -69,11 +69,13 @@ HWY_INLINE void filter_vectors(D d, const FilterBands& bands, const double* weig
 }
 
 // Whole groups from `begin` to `end`.
-void filter_groups(const FilterBands& bands, const double* weights, const FilterColumns& field, int begin, int end) {
+void filter_groups(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& field, int begin,
+                   int end) {
   const hn::CappedTag<double, 4> d;
-  for (int i = begin; i < end; i += band_group)
+  const std::size_t* group = weights.group.data() + bands.first_group + begin / band_group;
+  for (int i = begin; i < end; i += band_group, ++group)
     for (int k = 0; k < band_group; k += 4 * static_cast<int>(hn::Lanes(d)))
-      filter_vectors(d, bands, weights + static_cast<std::size_t>(i) * bands.offset.size() + k, field, i + k);
+      filter_vectors(d, bands, weights.value.data() + *group + k, field, i + k);
 }
 
 /// Room that a thread keeps from pass to pass.
@@ -84,7 +86,8 @@ AlignedVector<double>& room(std::size_t doubles) {
 }
 
 // Particles near a body's ends, on copies with zeros beyond those ends.
-void filter_edge(const FilterBands& bands, const double* weights, const FilterColumns& whole, int begin, int end) {
+void filter_edge(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& whole, int begin,
+                 int end) {
   if (begin >= end) return;
   const int last = (end + band_group - 1) / band_group * band_group;
   const int low = begin + bands.offset.front(), rows = last + bands.offset.back() - low;
@@ -102,17 +105,16 @@ void filter_edge(const FilterBands& bands, const double* weights, const FilterCo
     for (int i = begin; i < end; ++i) whole.put(axis, i, edge.out[axis][i]);
 }
 
-void filter_bands(const FilterBands& bands, const AlignedVector<double>& weights, const FilterColumns& columns,
-                  int begin, int end) {
+void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
+                  int end) {
   const FilterColumns whole = columns_from(columns, bands.first_particle);
-  const double* own = weights.data() + bands.begin;
   const int inner_begin = (-bands.offset.front() + band_group - 1) / band_group * band_group;
   const int inner_end = (bands.particles - bands.offset.back()) / band_group * band_group;
   const int first = std::clamp(inner_begin, begin, end), last = std::clamp(inner_end, first, end);
-  if (first == last || last % band_group != 0) return filter_edge(bands, own, whole, begin, end);
-  filter_edge(bands, own, whole, begin, first);
-  filter_groups(bands, own, whole, first, last);
-  filter_edge(bands, own, whole, last, end);
+  if (first == last || last % band_group != 0) return filter_edge(bands, weights, whole, begin, end);
+  filter_edge(bands, weights, whole, begin, first);
+  filter_groups(bands, weights, whole, first, last);
+  filter_edge(bands, weights, whole, last, end);
 }
 
 #if HWY_MAX_BYTES >= 32
@@ -165,8 +167,7 @@ void store_slice(const SliceSums& sums, double value[3][4]) {
 
 #endif
 
-void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weights, const FilterColumns& columns,
-                   int block) {
+void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block) {
   const FilterColumns whole = columns_from(columns, slices.first_particle);
   const FilterSlices::Block& run = slices.block[static_cast<std::size_t>(block)];
   AlignedVector<double>& memory = room(4 * static_cast<std::size_t>(run.high - run.low));
@@ -176,7 +177,7 @@ void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weig
     const int* column = slices.column.data() + 4 * std::ptrdiff_t{slices.slice_begin[static_cast<std::size_t>(t)]};
     const int* end = slices.column.data() + 4 * std::ptrdiff_t{slices.slice_begin[static_cast<std::size_t>(t) + 1]};
     SliceSums sums;
-    filter_slice(weights.data() + slices.begin + (column - slices.column.data()), column, end, rows, sums);
+    filter_slice(weights.value.data() + slices.begin + (column - slices.column.data()), column, end, rows, sums);
     if (4 * t + 4 <= slices.particles && slices.order.empty()) {
       put_slice(sums, whole, 4 * t);
       continue;
@@ -199,13 +200,12 @@ namespace billow::sim {
 HWY_EXPORT(filter_bands);
 HWY_EXPORT(filter_slices);
 
-void filter_bands(const FilterBands& bands, const AlignedVector<double>& weights, const FilterColumns& columns,
-                  int begin, int end) {
+void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
+                  int end) {
   HWY_DYNAMIC_DISPATCH(filter_bands)(bands, weights, columns, begin, end);
 }
 
-void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weights, const FilterColumns& columns,
-                   int block) {
+void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block) {
   HWY_DYNAMIC_DISPATCH(filter_slices)(slices, weights, columns, block);
 }
 

@@ -26,11 +26,10 @@ struct FilterColumns {
 
 /// Filters particles [begin, end) of the body; begin is a multiple of band_group, and so is end unless it is the
 /// last particle. `weights` are the plan's. Every instruction set gives the same bits.
-void filter_bands(const FilterBands& bands, const AlignedVector<double>& weights, const FilterColumns& columns,
-                  int begin, int end);
+void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
+                  int end);
 
 /// As above, on the particles of one block of slices.
-void filter_slices(const FilterSlices& slices, const AlignedVector<double>& weights, const FilterColumns& columns,
-                   int block);
+void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block);
 
 }  // namespace billow::sim

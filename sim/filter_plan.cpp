@@ -2,6 +2,8 @@
 #include "sim/filter_plan.h"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "sim/locality.h"
@@ -40,7 +42,7 @@ FilterPlan::FilterPlan(const Structure& structure, const NeighbourRows& neighbou
 }
 
 void FilterPlan::add_bands(const Body& body, const NeighbourRows& neighbours, const std::vector<int>& stride) {
-  FilterBands added{body.first_particle, body.particles, {0}, places_};
+  FilterBands added{body.first_particle, body.particles, {0}, group_.size()};
   for (const int s : stride) added.offset.push_back(s), added.offset.push_back(-s);
   std::sort(added.offset.begin(), added.offset.end());
   const std::size_t offsets = added.offset.size();
@@ -55,7 +57,7 @@ void FilterPlan::add_bands(const Body& body, const NeighbourRows& neighbours, co
          ++e)
       neighbour_place_[static_cast<std::size_t>(e)] = place(i, neighbours.column[static_cast<std::size_t>(e)] - i);
   }
-  places_ += static_cast<std::size_t>((body.particles + band_group - 1) / band_group) * band_group * offsets;
+  for (int i = 0; i < body.particles; i += band_group, places_ += band_group * offsets) group_.push_back(places_);
   bands.push_back(std::move(added));
 }
 
@@ -103,12 +105,25 @@ void FilterPlan::add_slices(const Body& body, const NeighbourRows& neighbours, s
   slices.push_back(std::move(added));
 }
 
-void FilterPlan::arrange(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour,
-                         AlignedVector<double>& weights) const {
-  weights.assign(places_, 0.0);
-  for (std::size_t i = 0; i < self_place_.size(); ++i) weights[self_place_[i]] = self(static_cast<Eigen::Index>(i));
+PlacedWeights FilterPlan::place(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour) const {
+  PlacedWeights weights{AlignedVector<double>(places_, 0.0), group_};
+  for (std::size_t i = 0; i < self_place_.size(); ++i)
+    weights.value[self_place_[i]] = self(static_cast<Eigen::Index>(i));
   for (std::size_t e = 0; e < neighbour_place_.size(); ++e)
-    weights[neighbour_place_[e]] = neighbour(static_cast<Eigen::Index>(e));
+    weights.value[neighbour_place_[e]] = neighbour(static_cast<Eigen::Index>(e));
+  return weights;
+}
+
+void FilterPlan::share_equal_groups(PlacedWeights& weights) const {
+  for (const FilterBands& body : bands) {
+    const std::size_t size = band_group * body.offset.size() * sizeof(double);
+    const std::size_t groups = static_cast<std::size_t>((body.particles + band_group - 1) / band_group);
+    std::unordered_map<std::string_view, std::size_t> first;  // by the weights' bytes
+    for (std::size_t g = body.first_group; g < body.first_group + groups; ++g) {
+      const char* bytes = reinterpret_cast<const char*>(weights.value.data() + weights.group[g]);
+      weights.group[g] = first.try_emplace(std::string_view(bytes, size), weights.group[g]).first->second;
+    }
+  }
 }
 
 }  // namespace billow::sim

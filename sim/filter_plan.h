@@ -14,12 +14,18 @@ struct NeighbourRows {
   std::vector<int> first, column;
 };
 
+/// Weights in the order in which a pass reads them.
+struct PlacedWeights {
+  AlignedVector<double> value;
+  std::vector<std::size_t> group;  // where the weights of each group of particles of the bands begin
+};
+
 /// A body whose neighbours lie at a few constant distances: weight k of particle i, that of particle i + offset[k], is
-/// at begin + (i / 16 * offsets + k) * 16 + i % 16; 0 where there is no such neighbour.
+/// value[group[first_group + i / 16] + 16 k + i % 16]; 0 where there is no such neighbour.
 struct FilterBands {
   int first_particle = 0, particles = 0;
   std::vector<int> offset;  // ascending; 0, the particle itself, is one
-  std::size_t begin = 0;
+  std::size_t first_group = 0;
 };
 
 /// Any other body, four particles at a time: weights and neighbours of the four side by side.
@@ -43,7 +49,9 @@ class FilterPlan {
   FilterPlan(const Structure& structure, const NeighbourRows& neighbours);
 
   /// self (n) and neighbour (one per entry of the rows) -> the weights in the plan's order.
-  void arrange(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour, AlignedVector<double>& weights) const;
+  PlacedWeights place(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour) const;
+  /// Lets groups of equal weights share one place, so that a pass over a large regular cloth finds them in the cache.
+  void share_equal_groups(PlacedWeights& weights) const;
 
   std::vector<FilterBands> bands;
   std::vector<FilterSlices> slices;
@@ -54,6 +62,7 @@ class FilterPlan {
 
   std::size_t places_ = 0;
   std::vector<std::size_t> self_place_, neighbour_place_;
+  std::vector<std::size_t> group_;  // of every band, with places for all of them
 };
 
 }  // namespace billow::sim

@@ -2,6 +2,7 @@
 #include "sim/filtered_step.h"
 
 #include "sim/error.h"
+#include "sim/huge_pages.h"
 
 namespace billow::sim {
 
@@ -75,6 +76,8 @@ FilteredStep::~FilteredStep() = default;
 
 void FilteredStep::operator()(State& state, double h) {
   time_ = state.time;
+  if (!prepared_) use_huge_pages(state.position), use_huge_pages(state.velocity);
+  prepared_ = true;
   integrator_->step(structure_, filtered_forces_ ? *filtered_forces_ : forces_, state, h, velocity_filter_.get());
 }
 

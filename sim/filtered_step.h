@@ -31,7 +31,8 @@ class FilteredStep {
   std::unique_ptr<Forces> filtered_forces_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<VelocityFilter> velocity_filter_;
-  double time_ = 0.0;  // [s] of the step being taken, for filters whose lambda varies
+  bool prepared_ = false;  // whether the state's arrays have been seen
+  double time_ = 0.0;      // [s] of the step being taken, for filters whose lambda varies
 };
 
 }  // namespace billow::sim

@@ -3,11 +3,20 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/huge_pages.h"
 #include "sim/spring_force.h"
 
 namespace billow::sim {
 
 namespace {
+
+constexpr std::size_t swept_terms = 3;  // springs, friction, gravity
+
+void make_room(const Structure& structure, Eigen::MatrixX3d& field) {
+  if (field.rows() == structure.particles()) return;
+  field.resize(structure.particles(), 3);
+  use_huge_pages(field);
+}
 
 /// f = m g, energy -m g . x.
 class Gravity : public ForceTerm {
@@ -48,14 +57,13 @@ class FluidFriction : public ForceTerm {
 
 }  // namespace
 
-constexpr std::size_t swept_terms = 3;  // springs, friction, gravity
-
 Forces::Forces(const Structure& structure, const Eigen::Vector3d& gravity) : structure_(structure), gravity_(gravity) {
   auto springs = std::make_unique<SpringForce>(structure);
   springs_ = springs.get();
   add(std::move(springs));
   add(std::make_unique<FluidFriction>(structure));
   add(std::make_unique<Gravity>(structure, gravity));
+  use_huge_pages(structure.mass), use_huge_pages(structure.inverse_mass);
 }
 
 Forces::Forces(const Structure& structure, std::vector<std::unique_ptr<ForceTerm>> terms)
@@ -68,7 +76,7 @@ void Forces::evaluate(const State& state, Eigen::MatrixX3d& force) const {
 
 void Forces::acceleration(const State& state, Eigen::MatrixX3d& acceleration) const {
   if (springs_) {
-    acceleration.resize(structure_.particles(), 3);
+    make_room(structure_, acceleration);
     SpringSink sink;
     for (int axis = 0; axis < 3; ++axis) sink.out[axis] = acceleration.col(axis).data();
     return sweep(state, sink);
@@ -83,7 +91,7 @@ void Forces::kick(const State& state, double h, Eigen::MatrixX3d& velocity) cons
     velocity = state.velocity + h * velocity;
     return;
   }
-  velocity.resize(structure_.particles(), 3);
+  make_room(structure_, velocity);
   SpringSink sink;
   sink.step = h;
   for (int axis = 0; axis < 3; ++axis) {
