@@ -1,4 +1,4 @@
-// Force pass, filter pass and whole filtered FB Euler step.
+// Force pass, filter pass, whole filtered FB Euler step, and an iteration of the implicit schemes' linear solve.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
@@ -8,10 +8,13 @@
 
 #include "bench/cloths.h"
 #include "bench/sections.h"
+#include "sim/block_jacobi.h"
+#include "sim/conjugate_gradient.h"
 #include "sim/filter.h"
 #include "sim/filtered_step.h"
 #include "sim/forces.h"
 #include "sim/huge_pages.h"
+#include "sim/random.h"
 #include "sim/spring_force.h"
 
 namespace billow::bench {
@@ -77,6 +80,30 @@ void filtered_step(benchmark::State& run, const std::string& name, int threads) 
   measure(run, on.structure, threads, [&] { step(state, step_size); });
 }
 
+constexpr int cg_iterations = 20;
+
+// Iterations of backward Euler's linear solve at 0.01 s, with its preconditioner.
+void cg_iteration(benchmark::State& run, const std::string& name, int threads) {
+  constexpr double h = 0.01;  // [s]
+  const Prepared& on = prepared(name);
+  const int n = on.structure.particles();
+  const sim::State state = stretched(on.structure);
+  sim::StiffnessMatrix system = on.forces.linearise(state, h * h, h, sim::JacobianForm::definite);
+  for (int i = 0; i < n; ++i) system.add_diagonal(i, on.structure.mass(i));
+  sim::BlockJacobi blocks;
+  blocks.set(system);
+  const auto multiply = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { system.multiply(x, y); };
+  const auto precondition = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { blocks.apply(x, y); };
+  const Eigen::MatrixX3d right = sim::seeded_noise(n, 1);
+  Eigen::MatrixX3d x(n, 3);
+  sim::ConjugateGradientSpace space;
+  measure(run, on.structure, threads, [&] {
+    x.setZero();
+    sim::conjugate_gradient(multiply, precondition, right, 0.0, cg_iterations, x, space);
+  });
+  run.counters["springs"] = static_cast<double>(on.structure.springs()) * cg_iterations;
+}
+
 void add(const std::string& pass, const std::string& name, int threads,
          void (*function)(benchmark::State&, const std::string&, int)) {
   benchmark::RegisterBenchmark(pass_name(pass, name, threads).c_str(), function, name, threads)->UseRealTime();
@@ -96,6 +123,7 @@ Targets add_passes() {
       add("force", name, threads, force_pass);
       add("filter", name, threads, filter_pass);
       add("step", name, threads, filtered_step);
+      add("CG", name, threads, cg_iteration);
       const bool large = name == "grid 300" || name == "grid 1000";
       if (threads == 2)
         targets.push_back({fmt::format("step on {}: 2 threads against 1", name), pass_name("step", name, 1),

@@ -19,7 +19,7 @@ using Targets = std::vector<Target>;
 
 /// The arithmetic of the springs on arrays in the L1 cache: what no pass over a structure can beat.
 Targets add_ceiling();
-/// Force pass, filter pass and whole filtered steps, by size, kind of mesh and threads.
+/// Force pass, filter pass, whole filtered steps and iterations of the linear solve, by size, kind of mesh and threads.
 Targets add_passes();
 /// Bullet's soft body on the same grid. Not there without Bullet.
 Targets add_bullet();

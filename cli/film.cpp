@@ -1,9 +1,12 @@
 // The film's three stages and the queues between them.
 #include "cli/film.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <ctime>
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -150,6 +153,14 @@ void extend(Eigen::AlignedBox3d& box, const std::vector<sim::SurfaceState>& surf
   }
 }
 
+// What the process holds in memory [KiB]; 0 where the system does not say.
+long resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  long size = 0, resident = 0;
+  file >> size >> resident;
+  return file ? resident * (sysconf(_SC_PAGESIZE) / 1024) : 0;
+}
+
 /// One run of make_film.
 class Film {
  public:
@@ -255,8 +266,10 @@ class Film {
         if (!images_.push(std::move(finished))) return;
       }
       progress_.update(++report_.frames_drawn, snapshot->time);
+      if (report_.frames_drawn == settled_frames) report_.memory.settled = resident_memory();
     }
     progress_.end();
+    report_.memory.end = resident_memory();
   }
 
   void encode(StageCost& cost, long& written) {

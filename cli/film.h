@@ -29,6 +29,14 @@ struct StageCost {
   double cpu = 0.0;   // [s] of the processor, by its own threads
 };
 
+/// Frames after which a run has all the memory that it needs, however long it is.
+constexpr long settled_frames = 100;
+
+/// What the process held in memory [KiB] after settled_frames (0 in a shorter film) and after the last frame.
+struct ResidentMemory {
+  long settled = 0, end = 0;
+};
+
 /// What a run needs to know of itself before its first frame.
 struct Survey {
   render::RunBounds bounds;
@@ -45,6 +53,7 @@ struct FilmReport {
   sim::SolveCounts solves = {};
   double velocity_range = 0.0;  // [m/s]
   std::string gl = {};
+  ResidentMemory memory = {};
   StageCost simulate = {}, draw = {}, encode = {};
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
   int interrupted_by = 0;  // the signal that ended the run early, or 0

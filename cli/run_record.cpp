@@ -94,6 +94,7 @@ Json finished(const Scene& scene, const std::string& command, const Simulation& 
                      {"encode", report.encode.wall},
                      {"wall", survey.cost.wall + report.total.wall}};
   json["processor_seconds"] = processor_record(survey, report);
+  json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
   json["gl"] = report.gl;
   return json;
 }

@@ -16,6 +16,7 @@ std::array<double, 9> quantities_of(const FrameRecord& record) {
 }  // namespace
 
 void RunSeries::add(const FrameRecord& record) {
+  groups_.reserve(max_points / 2);  // at once: memory that grows piece by piece leaves holes
   if (first_frame_ == 0) first_frame_ = record.frame;
   last_frame_ = record.frame;
   if (groups_.empty() || last_size_ == group_size_) {

@@ -114,6 +114,20 @@ TEST_F(RenderCommand, DrawsAPartAsInTheWhole) {
     EXPECT_EQ(test::read_text(film(file)), test::read_text(folder_.path() / "whole" / file)) << file;
 }
 
+// 10,000 frames may take 1 MiB more than the first 100 did; of that the renderer's own buffers take the most.
+TEST_F(RenderCommand, HoldsNoMoreMemoryForALongFilm) {
+#ifdef BILLOW_SANITIZE
+  GTEST_SKIP() << "the address sanitizer keeps what has been freed";
+#endif
+  scene(small_scene("{method: fb_euler}", 80.0));
+  const ToolResult result = render({"-D", "render.size=[16, 16]", "-D", "render.samples=1", "-D", "strip.step=0.1"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  ASSERT_EQ(record()["images_written"], 4000);
+  const nlohmann::json memory = record()["resident_kib"];
+  EXPECT_GT(memory["after_100_frames"], 1024);
+  EXPECT_LE(memory["end"].get<long>() - memory["after_100_frames"].get<long>(), 1024);
+}
+
 TEST_F(RenderCommand, RefusesAFolderThatHoldsSomething) {
   fs::create_directories(film(""));
   folder_.write("film/diary.txt", "mine");
