@@ -278,9 +278,14 @@ void Filter::run(const PlacedWeights& weights, const FilterColumns& columns) con
   for (const FilterBands& bands : plan_.bands)
     for_each_range(bands.particles, band_group, least_part,
                    [&](int begin, int end) { filter_bands(bands, weights, columns, begin, end); });
-  for (const FilterSlices& slices : plan_.slices)
+  for (const FilterSlices& slices : plan_.slices) {
     for_each_block(slices.particles, static_cast<int>(slices.block.size()),
                    [&](int block) { filter_slices(slices, weights, columns, block); });
+    if (!columns.base[0] && !columns.moved[0]) continue;
+    for_each_range(slices.particles, 1, least_part, [&](int begin, int end) {
+      put_filtered(columns, slices.first_particle + begin, slices.first_particle + end);
+    });
+  }
 }
 
 // Into a second field that each thread keeps, which then changes places with the first.

@@ -79,9 +79,8 @@ void filter_groups(const FilterBands& bands, const PlacedWeights& weights, const
 }
 
 /// Room that a thread keeps from pass to pass.
-AlignedVector<double>& room(std::size_t doubles) {
+AlignedVector<double>& room() {
   static thread_local AlignedVector<double> memory;
-  memory.assign(doubles, 0.0);
   return memory;
 }
 
@@ -91,7 +90,8 @@ void filter_edge(const FilterBands& bands, const PlacedWeights& weights, const F
   if (begin >= end) return;
   const int last = (end + band_group - 1) / band_group * band_group;
   const int low = begin + bands.offset.front(), rows = last + bands.offset.back() - low;
-  AlignedVector<double>& memory = room(static_cast<std::size_t>(6 * rows));
+  AlignedVector<double>& memory = room();
+  memory.assign(static_cast<std::size_t>(6 * rows), 0.0);
   const int from = std::max(low, 0), to = std::min(low + rows, bands.particles);
   FilterColumns edge{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -133,14 +133,9 @@ HWY_INLINE void filter_slice(const double* weight, const int* column, const int*
   sums = transposed({a, b, c, e});
 }
 
-HWY_INLINE void put_slice(const SliceSums& sums, const FilterColumns& columns, std::ptrdiff_t i) {
+HWY_INLINE void store_slice(const SliceSums& sums, double* x, double* y, double* z) {
   const Quad d;
-  put(d, columns, 0, i, sums.x), put(d, columns, 1, i, sums.y), put(d, columns, 2, i, sums.z);
-}
-
-HWY_INLINE void store_slice(const SliceSums& sums, double value[3][4]) {
-  const Quad d;
-  hn::Store(sums.x, d, value[0]), hn::Store(sums.y, d, value[1]), hn::Store(sums.z, d, value[2]);
+  hn::StoreU(sums.x, d, x), hn::StoreU(sums.y, d, y), hn::StoreU(sums.z, d, z);
 }
 
 #else
@@ -156,13 +151,10 @@ void filter_slice(const double* weight, const int* column, const int* end, const
       for (int axis = 0; axis < 3; ++axis) sums.axis[axis][k] += weight[k] * rows[4 * std::ptrdiff_t{column[k]} + axis];
 }
 
-void put_slice(const SliceSums& sums, const FilterColumns& columns, std::ptrdiff_t i) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) columns.put(axis, i + k, sums.axis[axis][k]);
-}
-
-void store_slice(const SliceSums& sums, double value[3][4]) {
-  for (int axis = 0; axis < 3; ++axis) std::copy(sums.axis[axis], sums.axis[axis] + 4, value[axis]);
+void store_slice(const SliceSums& sums, double* x, double* y, double* z) {
+  std::copy(sums.axis[0], sums.axis[0] + 4, x);
+  std::copy(sums.axis[1], sums.axis[1] + 4, y);
+  std::copy(sums.axis[2], sums.axis[2] + 4, z);
 }
 
 #endif
@@ -170,7 +162,8 @@ void store_slice(const SliceSums& sums, double value[3][4]) {
 void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block) {
   const FilterColumns whole = columns_from(columns, slices.first_particle);
   const FilterSlices::Block& run = slices.block[static_cast<std::size_t>(block)];
-  AlignedVector<double>& memory = room(4 * static_cast<std::size_t>(run.high - run.low));
+  AlignedVector<double>& memory = room();
+  memory.resize(4 * static_cast<std::size_t>(run.high - run.low));
   ordered_rows_of(whole.in, slices.order, run.low, run.high, memory.data());
   const double* rows = memory.data() - 4 * std::ptrdiff_t{run.low};
   for (int t = run.first_slice; t < run.last_slice; ++t) {
@@ -179,16 +172,26 @@ void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, con
     SliceSums sums;
     filter_slice(weights.value.data() + slices.begin + (column - slices.column.data()), column, end, rows, sums);
     if (4 * t + 4 <= slices.particles && slices.order.empty()) {
-      put_slice(sums, whole, 4 * t);
+      store_slice(sums, whole.out[0] + 4 * t, whole.out[1] + 4 * t, whole.out[2] + 4 * t);
       continue;
     }
-    HWY_ALIGN double value[3][4];
-    store_slice(sums, value);
+    double value[3][4];
+    store_slice(sums, value[0], value[1], value[2]);
     for (int k = 0; k < 4 && 4 * t + k < slices.particles; ++k) {
       const int i = slices.order.empty() ? 4 * t + k : slices.order[static_cast<std::size_t>(4 * t + k)];
-      for (int axis = 0; axis < 3; ++axis) whole.put(axis, i, value[axis][k]);
+      for (int axis = 0; axis < 3; ++axis) whole.out[axis][i] = value[axis][k];
     }
   }
+}
+
+void put_filtered_columns(const FilterColumns& columns, int begin, int end) {
+  const hn::ScalableTag<double> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  int i = begin;
+  for (; i + lanes <= end; i += lanes)
+    for (int axis = 0; axis < 3; ++axis) put(d, columns, axis, i, hn::LoadU(d, columns.out[axis] + i));
+  for (; i < end; ++i)
+    for (int axis = 0; axis < 3; ++axis) columns.put(axis, i, columns.out[axis][i]);
 }
 
 }  // namespace billow::sim::HWY_NAMESPACE
@@ -199,6 +202,7 @@ namespace billow::sim {
 
 HWY_EXPORT(filter_bands);
 HWY_EXPORT(filter_slices);
+HWY_EXPORT(put_filtered_columns);
 
 void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
                   int end) {
@@ -207,6 +211,10 @@ void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const 
 
 void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block) {
   HWY_DYNAMIC_DISPATCH(filter_slices)(slices, weights, columns, block);
+}
+
+void put_filtered(const FilterColumns& columns, int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(put_filtered_columns)(columns, begin, end);
 }
 
 }  // namespace billow::sim

@@ -29,7 +29,11 @@ struct FilterColumns {
 void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
                   int end);
 
-/// As above, on the particles of one block of slices.
+/// out = F f on the particles of one block of slices. What else the columns say, put_filtered does when all blocks are
+/// done: slices take particles in an order of their own.
 void filter_slices(const FilterSlices& slices, const PlacedWeights& weights, const FilterColumns& columns, int block);
+
+/// As if each particle of [begin, end) had just been filtered, to what its `out` now holds.
+void put_filtered(const FilterColumns& columns, int begin, int end);
 
 }  // namespace billow::sim
