@@ -29,19 +29,29 @@ FilterColumns columns_from(const FilterColumns& columns, int first_particle) {
   return own;
 }
 
-/// FilterColumns::put on a vector of particles.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void put(D d, const FilterColumns& columns, int axis, std::ptrdiff_t i, V value) {
-  if (columns.base[axis])
-    value = hn::Add(hn::LoadU(d, columns.base[axis] + i), hn::Mul(hn::Set(d, columns.kick_step), value));
-  hn::StoreU(value, d, columns.out[axis] + i);
+/// FilterColumns::put on vectors of particles from i on.
+template <class D, int vectors, class V = hn::Vec<D>>
+HWY_INLINE void put(D d, const FilterColumns& columns, int axis, std::ptrdiff_t i, V (&value)[vectors]) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  if (const double* const base = columns.base[axis]) {
+    const V step = hn::Set(d, columns.kick_step);
+    HWY_UNROLL(4)
+    for (int u = 0; u < vectors; ++u) value[u] = hn::Add(hn::LoadU(d, base + i + u * lanes), hn::Mul(step, value[u]));
+  }
+  double* const out = columns.out[axis] + i;
+  HWY_UNROLL(4)
+  for (int u = 0; u < vectors; ++u) hn::StoreU(value[u], d, out + u * lanes);
   if (!columns.moved[axis]) return;
   double* const moved = columns.moved[axis] + i;
-  hn::StoreU(hn::Add(hn::LoadU(d, moved), hn::Mul(hn::Set(d, columns.move_step), value)), d, moved);
+  const V step = hn::Set(d, columns.move_step);
+  HWY_UNROLL(4)
+  for (int u = 0; u < vectors; ++u)
+    hn::StoreU(hn::Add(hn::LoadU(d, moved + u * lanes), hn::Mul(step, value[u])), d, moved + u * lanes);
 }
 
-// Several vectors at once, so that what is read for every offset is read less often.
-template <class D, int vectors = 4>
+// Several vectors at once, so that what is read for every offset is read less often; the weights of a uniform group are
+// read once for all of them.
+template <bool uniform, class D, int vectors = 4>
 HWY_INLINE void filter_vectors(D d, const FilterBands& bands, const double* weight, const FilterColumns& field, int i) {
   using V = hn::Vec<D>;
   constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
@@ -51,31 +61,34 @@ HWY_INLINE void filter_vectors(D d, const FilterBands& bands, const double* weig
   const double* const in[3] = {field.in[0] + i, field.in[1] + i, field.in[2] + i};
   for (const int offset : bands.offset) {
     const double *const in_x = in[0] + offset, *const in_y = in[1] + offset, *const in_z = in[2] + offset;
+    const V common = hn::Set(d, *weight);
     HWY_UNROLL(4)
     for (int u = 0; u < vectors; ++u) {
-      const V w = hn::Load(d, weight + u * lanes);
+      const V w = uniform ? common : hn::Load(d, weight + u * lanes);
       x[u] = hn::Add(x[u], hn::Mul(w, hn::LoadU(d, in_x + u * lanes)));
       y[u] = hn::Add(y[u], hn::Mul(w, hn::LoadU(d, in_y + u * lanes)));
       z[u] = hn::Add(z[u], hn::Mul(w, hn::LoadU(d, in_z + u * lanes)));
     }
     weight += band_group;
   }
-  HWY_UNROLL(4)
-  for (int u = 0; u < vectors; ++u) {
-    put(d, field, 0, i + u * lanes, x[u]);
-    put(d, field, 1, i + u * lanes, y[u]);
-    put(d, field, 2, i + u * lanes, z[u]);
-  }
+  put(d, field, 0, i, x);
+  put(d, field, 1, i, y);
+  put(d, field, 2, i, z);
 }
 
 // Whole groups from `begin` to `end`.
 void filter_groups(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& field, int begin,
                    int end) {
   const hn::CappedTag<double, 4> d;
-  const std::size_t* group = weights.group.data() + bands.first_group + begin / band_group;
+  const PlacedWeights::Group* group = weights.group.data() + bands.first_group + begin / band_group;
   for (int i = begin; i < end; i += band_group, ++group)
-    for (int k = 0; k < band_group; k += 4 * static_cast<int>(hn::Lanes(d)))
-      filter_vectors(d, bands, weights.value.data() + *group + k, field, i + k);
+    for (int k = 0; k < band_group; k += 4 * static_cast<int>(hn::Lanes(d))) {
+      const double* const weight = weights.value.data() + group->begin + k;
+      if (group->uniform)
+        filter_vectors<true>(d, bands, weight, field, i + k);
+      else
+        filter_vectors<false>(d, bands, weight, field, i + k);
+    }
 }
 
 /// Room that a thread keeps from pass to pass.
@@ -84,25 +97,37 @@ AlignedVector<double>& room() {
   return memory;
 }
 
-// Particles near a body's ends, on copies with zeros beyond those ends.
+// The same columns, read from copies of what the particles of [begin, end) read, with zeros beyond the body's ends.
+FilterColumns with_zeros_beyond(const FilterBands& bands, const FilterColumns& whole, int begin, int end) {
+  const int low = begin + bands.offset.front(), high = end + bands.offset.back(), rows = high - low;
+  const int from = std::max(low, 0), to = std::min(high, bands.particles);
+  AlignedVector<double>& memory = room();
+  memory.resize(static_cast<std::size_t>(3 * rows));
+  FilterColumns columns = whole;
+  for (int axis = 0; axis < 3; ++axis) {
+    double* const in = memory.data() + axis * rows - low;
+    std::fill(in + low, in + from, 0.0);
+    std::copy(whole.in[axis] + from, whole.in[axis] + to, in + from);
+    std::fill(in + to, in + high, 0.0);
+    columns.in[axis] = in;
+  }
+  return columns;
+}
+
+// Particles near a body's ends. What a group holds beyond the body's last particle is filtered to nowhere.
 void filter_edge(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& whole, int begin,
                  int end) {
   if (begin >= end) return;
-  const int last = (end + band_group - 1) / band_group * band_group;
-  const int low = begin + bands.offset.front(), rows = last + bands.offset.back() - low;
-  AlignedVector<double>& memory = room();
-  memory.assign(static_cast<std::size_t>(6 * rows), 0.0);
-  const int from = std::max(low, 0), to = std::min(low + rows, bands.particles);
-  FilterColumns edge{};
-  for (int axis = 0; axis < 3; ++axis) {
-    double* in = memory.data() + axis * rows;
-    std::copy(whole.in[axis] + from, whole.in[axis] + to, in + (from - low));
-    edge.in[axis] = in - low;
-    edge.out[axis] = memory.data() + (3 + axis) * rows - begin;
-  }
+  const int last = end / band_group * band_group, beyond = last == end ? end : last + band_group;
+  const FilterColumns edge = with_zeros_beyond(bands, whole, begin, beyond);
   filter_groups(bands, weights, edge, begin, last);
+  if (last == end) return;
+  double filtered[3][band_group];
+  FilterColumns partial{};
+  for (int axis = 0; axis < 3; ++axis) partial.in[axis] = edge.in[axis], partial.out[axis] = filtered[axis] - last;
+  filter_groups(bands, weights, partial, last, beyond);
   for (int axis = 0; axis < 3; ++axis)
-    for (int i = begin; i < end; ++i) whole.put(axis, i, edge.out[axis][i]);
+    for (int i = last; i < end; ++i) whole.put(axis, i, filtered[axis][i - last]);
 }
 
 void filter_bands(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& columns, int begin,
@@ -189,7 +214,10 @@ void put_filtered_columns(const FilterColumns& columns, int begin, int end) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   int i = begin;
   for (; i + lanes <= end; i += lanes)
-    for (int axis = 0; axis < 3; ++axis) put(d, columns, axis, i, hn::LoadU(d, columns.out[axis] + i));
+    for (int axis = 0; axis < 3; ++axis) {
+      hn::Vec<decltype(d)> filtered[] = {hn::LoadU(d, columns.out[axis] + i)};
+      put(d, columns, axis, i, filtered);
+    }
   for (; i < end; ++i)
     for (int axis = 0; axis < 3; ++axis) columns.put(axis, i, columns.out[axis][i]);
 }

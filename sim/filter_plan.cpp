@@ -27,6 +27,13 @@ std::vector<std::pair<int, int>> upper_pairs(const Body& body, const NeighbourRo
   return pairs;
 }
 
+// Whether the particles of a group have the same weight at each of the offsets.
+bool all_alike(const double* value, std::size_t offsets) {
+  for (std::size_t k = 0; k < offsets; ++k, value += band_group)
+    if (!std::all_of(value, value + band_group, [value](double other) { return other == *value; })) return false;
+  return true;
+}
+
 }  // namespace
 
 FilterPlan::FilterPlan(const Structure& structure, const NeighbourRows& neighbours)
@@ -57,7 +64,7 @@ void FilterPlan::add_bands(const Body& body, const NeighbourRows& neighbours, co
          ++e)
       neighbour_place_[static_cast<std::size_t>(e)] = place(i, neighbours.column[static_cast<std::size_t>(e)] - i);
   }
-  for (int i = 0; i < body.particles; i += band_group, places_ += band_group * offsets) group_.push_back(places_);
+  for (int i = 0; i < body.particles; i += band_group, places_ += band_group * offsets) group_.push_back({places_});
   bands.push_back(std::move(added));
 }
 
@@ -120,8 +127,11 @@ void FilterPlan::share_equal_groups(PlacedWeights& weights) const {
     const std::size_t groups = static_cast<std::size_t>((body.particles + band_group - 1) / band_group);
     std::unordered_map<std::string_view, std::size_t> first;  // by the weights' bytes
     for (std::size_t g = body.first_group; g < body.first_group + groups; ++g) {
-      const char* bytes = reinterpret_cast<const char*>(weights.value.data() + weights.group[g]);
-      weights.group[g] = first.try_emplace(std::string_view(bytes, size), weights.group[g]).first->second;
+      PlacedWeights::Group& group = weights.group[g];
+      const double* value = weights.value.data() + group.begin;
+      group.uniform = all_alike(value, body.offset.size());
+      group.begin =
+          first.try_emplace(std::string_view(reinterpret_cast<const char*>(value), size), group.begin).first->second;
     }
   }
 }

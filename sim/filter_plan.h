@@ -16,12 +16,18 @@ struct NeighbourRows {
 
 /// Weights in the order in which a pass reads them.
 struct PlacedWeights {
+  /// Of band_group particles of the bands.
+  struct Group {
+    std::size_t begin = 0;  // of its weights
+    bool uniform = false;   // whether its particles are known to have the same ones
+  };
+
   AlignedVector<double> value;
-  std::vector<std::size_t> group;  // where the weights of each group of particles of the bands begin
+  std::vector<Group> group;
 };
 
 /// A body whose neighbours lie at a few constant distances: weight k of particle i, that of particle i + offset[k], is
-/// value[group[first_group + i / 16] + 16 k + i % 16]; 0 where there is no such neighbour.
+/// value[group[first_group + i / 16].begin + 16 k + i % 16]; 0 where there is no such neighbour.
 struct FilterBands {
   int first_particle = 0, particles = 0;
   std::vector<int> offset;  // ascending; 0, the particle itself, is one
@@ -50,7 +56,8 @@ class FilterPlan {
 
   /// self (n) and neighbour (one per entry of the rows) -> the weights in the plan's order.
   PlacedWeights place(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour) const;
-  /// Lets groups of equal weights share one place, so that a pass over a large regular cloth finds them in the cache.
+  /// Lets groups of equal weights share one place, so that a pass over a large regular cloth finds them in the cache,
+  /// and finds the groups whose particles all have the same weights.
   void share_equal_groups(PlacedWeights& weights) const;
 
   std::vector<FilterBands> bands;
@@ -62,7 +69,7 @@ class FilterPlan {
 
   std::size_t places_ = 0;
   std::vector<std::size_t> self_place_, neighbour_place_;
-  std::vector<std::size_t> group_;  // of every band, with places for all of them
+  std::vector<PlacedWeights::Group> group_;  // of every band, with places for all of them
 };
 
 }  // namespace billow::sim
