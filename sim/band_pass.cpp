@@ -46,14 +46,10 @@ template <SpringDamping damping>
 class BandSweep {
  public:
   BandSweep(const SpringBands& bands, const SpringSink& sink, int begin, int end)
-      : rest_length_(bands.rest_length.data()),
-        sink_(sink),
-        begin_(begin),
-        end_(end),
-        strides_(static_cast<std::ptrdiff_t>(bands.stride.size())) {
+      : rest_length_(bands.rest_length.data()), group_(bands.group.data()), sink_(sink), begin_(begin), end_(end) {
     lay_rings(bands, scratch());
     ring_begin_ = scratch().rings.data();
-    ring_end_ = ring_begin_ + strides_;
+    ring_end_ = ring_begin_ + bands.stride.size();
     waiting_ = scratch().ring.data();
   }
 
@@ -99,7 +95,7 @@ class BandSweep {
 
   HWY_INLINE void start_springs(const SpringColumns& segment, int i) {
     const D d;
-    const double* rest = rest_length_ + std::ptrdiff_t{i / band_group} * strides_ * band_group + i % band_group;
+    const double* rest = rest_length_ + group_[i / band_group].begin + i % band_group;
     const double* const position[3] = {segment.position[0], segment.position[1], segment.position[2]};
     const Vector3<V> own_position = load(d, position, i);
     Vector3<V> own_velocity;
@@ -155,7 +151,7 @@ class BandSweep {
     }
     if (i < begin_) return;
     if (HWY_UNLIKELY(i + lanes > end_)) return put_last(i, sum);
-    put(d, sink_, 0, i, sum.x), put(d, sink_, 1, i, sum.y), put(d, sink_, 2, i, sum.z);
+    put(d, sink_, i, sum);
   }
 
   // The body ends within this vector.
@@ -168,9 +164,9 @@ class BandSweep {
   }
 
   const double* rest_length_;
+  const BandGroup* group_;
   const SpringSink sink_;
   const int begin_, end_;
-  const std::ptrdiff_t strides_;
   Ring *ring_begin_, *ring_end_;
   double* waiting_;
 };

@@ -3,6 +3,7 @@
 
 #include "sim/cloth_springs.h"
 #include "sim/error.h"
+#include "sim/regular_values.h"
 #include "sim/stiffness_scale.h"
 
 namespace billow::sim {
@@ -27,13 +28,13 @@ Eigen::VectorXd vertex_areas(const Mesh& mesh) {
 }
 
 Eigen::VectorXd masses(const Mesh& mesh, const ClothOptions& options) {
-  const Eigen::VectorXd share =
-      options.mass_by_area ? vertex_areas(mesh) : Eigen::VectorXd::Ones(mesh.vertices()).eval();
+  Eigen::VectorXd share = options.mass_by_area ? vertex_areas(mesh) : Eigen::VectorXd::Ones(mesh.vertices()).eval();
   for (Eigen::Index v = 0; v < share.size(); ++v)
     if (!(share(v) > 0.0))
       throw InputError(
           "vertex " + std::to_string(v) +
           " would have no mass, because its faces have no area; repair the mesh or spread the mass evenly");
+  make_regular(share);
   return share * (options.mass / share.sum());
 }
 
@@ -62,6 +63,7 @@ void add_springs(const Mesh& mesh, const ClothOptions& options, Structure& cloth
       throw InputError("vertices " + std::to_string(first) + " and " + std::to_string(second) +
                        " are joined but lie at the same place; repair the mesh");
   }
+  make_regular(cloth.rest_length);
 }
 
 void pin(const std::vector<int>& vertices, Structure& cloth) {

@@ -10,7 +10,7 @@
 #include "sim/filter_pass.h"
 #include "sim/parallel.h"
 #include "sim/random.h"
-#include "sim/spring_plan.h"
+#include "sim/regular_values.h"
 
 namespace billow::sim {
 
@@ -36,9 +36,6 @@ std::vector<Pair> spring_neighbours(const Structure& structure) {
 // A regular cloth has neighbours at exactly a round radius; this share more lets none of them come and go with the
 // rounding of a mesh file's decimals.
 constexpr double radius_slack = 1e-4;
-
-// [mean rest length] Distances are rounded to this, so that the equal neighbours of a regular cloth have equal weights.
-constexpr double distance_grain = 0x1p-30;
 
 // All pairs of one body within `radius` [m] at rest: a sweep along x.
 void append_pairs_within(const Structure& structure, const Body& body, double radius, std::vector<Pair>& pairs) {
@@ -165,8 +162,11 @@ Filter::Filter(const Structure& structure, FilterOptions options)
   distance_.resize(pairs.size());
   for (std::size_t e = 0; e < pairs.size(); ++e) {
     const auto [i, j] = pairs[e];
-    const double distance = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
-    distance_(e) = std::round(distance / distance_grain) * distance_grain;
+    distance_(e) = (structure.rest_position.row(i) - structure.rest_position.row(j)).norm() / unit_(i);
+  }
+  for (const Body& body : structure.body) {
+    const int begin = pattern_.first[body.first_particle], end = pattern_.first[body.first_particle + body.particles];
+    make_regular(distance_.segment(begin, end - begin));
   }
   plan_ = FilterPlan(structure, pattern_);
   strength_ = Eigen::VectorXd::Ones(structure.particles());

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "sim/spring_plan.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/filter_pass.cpp"
 #include <hwy/foreach_target.h>
@@ -80,7 +78,7 @@ HWY_INLINE void filter_vectors(D d, const FilterBands& bands, const double* weig
 void filter_groups(const FilterBands& bands, const PlacedWeights& weights, const FilterColumns& field, int begin,
                    int end) {
   const hn::CappedTag<double, 4> d;
-  const PlacedWeights::Group* group = weights.group.data() + bands.first_group + begin / band_group;
+  const BandGroup* group = weights.group.data() + bands.first_group + begin / band_group;
   for (int i = begin; i < end; i += band_group, ++group)
     for (int k = 0; k < band_group; k += 4 * static_cast<int>(hn::Lanes(d))) {
       const double* const weight = weights.value.data() + group->begin + k;

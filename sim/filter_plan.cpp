@@ -2,12 +2,10 @@
 #include "sim/filter_plan.h"
 
 #include <algorithm>
-#include <string_view>
-#include <unordered_map>
+#include <span>
 #include <utility>
 
 #include "sim/locality.h"
-#include "sim/spring_plan.h"
 #include "sim/strides.h"
 
 namespace billow::sim {
@@ -25,13 +23,6 @@ std::vector<std::pair<int, int>> upper_pairs(const Body& body, const NeighbourRo
       if (const int j = neighbours.column[static_cast<std::size_t>(e)]; j > i)
         pairs.emplace_back(i - body.first_particle, j - body.first_particle);
   return pairs;
-}
-
-// Whether the particles of a group have the same weight at each of the offsets.
-bool all_alike(const double* value, std::size_t offsets) {
-  for (std::size_t k = 0; k < offsets; ++k, value += band_group)
-    if (!std::all_of(value, value + band_group, [value](double other) { return other == *value; })) return false;
-  return true;
 }
 
 }  // namespace
@@ -122,18 +113,9 @@ PlacedWeights FilterPlan::place(const Eigen::VectorXd& self, const Eigen::Vector
 }
 
 void FilterPlan::share_equal_groups(PlacedWeights& weights) const {
-  for (const FilterBands& body : bands) {
-    const std::size_t size = band_group * body.offset.size() * sizeof(double);
-    const std::size_t groups = static_cast<std::size_t>((body.particles + band_group - 1) / band_group);
-    std::unordered_map<std::string_view, std::size_t> first;  // by the weights' bytes
-    for (std::size_t g = body.first_group; g < body.first_group + groups; ++g) {
-      PlacedWeights::Group& group = weights.group[g];
-      const double* value = weights.value.data() + group.begin;
-      group.uniform = all_alike(value, body.offset.size());
-      group.begin =
-          first.try_emplace(std::string_view(reinterpret_cast<const char*>(value), size), group.begin).first->second;
-    }
-  }
+  for (const FilterBands& body : bands)
+    billow::sim::share_equal_groups(weights.value, body.offset.size(),
+                                    std::span(weights.group).subspan(body.first_group, band_groups(body.particles)));
 }
 
 }  // namespace billow::sim

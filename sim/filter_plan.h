@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/aligned.h"
+#include "sim/band_groups.h"
 #include "sim/structure.h"
 
 namespace billow::sim {
@@ -16,14 +17,8 @@ struct NeighbourRows {
 
 /// Weights in the order in which a pass reads them.
 struct PlacedWeights {
-  /// Of band_group particles of the bands.
-  struct Group {
-    std::size_t begin = 0;  // of its weights
-    bool uniform = false;   // whether its particles are known to have the same ones
-  };
-
   AlignedVector<double> value;
-  std::vector<Group> group;
+  std::vector<BandGroup> group;  // of all bands; a row for each offset
 };
 
 /// A body whose neighbours lie at a few constant distances: weight k of particle i, that of particle i + offset[k], is
@@ -56,8 +51,7 @@ class FilterPlan {
 
   /// self (n) and neighbour (one per entry of the rows) -> the weights in the plan's order.
   PlacedWeights place(const Eigen::VectorXd& self, const Eigen::VectorXd& neighbour) const;
-  /// Lets groups of equal weights share one place, so that a pass over a large regular cloth finds them in the cache,
-  /// and finds the groups whose particles all have the same weights.
+  /// Those of equal groups of the bands in one place.
   void share_equal_groups(PlacedWeights& weights) const;
 
   std::vector<FilterBands> bands;
@@ -69,7 +63,7 @@ class FilterPlan {
 
   std::size_t places_ = 0;
   std::vector<std::size_t> self_place_, neighbour_place_;
-  std::vector<PlacedWeights::Group> group_;  // of every band, with places for all of them
+  std::vector<BandGroup> group_;  // of every band, with places for all of them
 };
 
 }  // namespace billow::sim

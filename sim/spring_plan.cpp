@@ -44,8 +44,8 @@ SpringBands make_bands(const Structure& structure, const Body& body, const Local
   const std::size_t strides = bands.stride.size();
   bands.stiffness.assign(strides, -1.0);
   bands.damping.assign(strides, -1.0);
-  bands.rest_length.assign(
-      static_cast<std::size_t>(body.particles + band_group - 1) / band_group * strides * band_group, 0.0);
+  bands.rest_length.assign(band_groups(body.particles) * strides * band_group, 0.0);
+  for (std::size_t g = 0; g < band_groups(body.particles); ++g) bands.group.push_back({g * strides * band_group});
   const auto agrees = [](double& shared, double own) {
     if (shared < 0.0) shared = own;
     return shared == own;
@@ -55,10 +55,11 @@ SpringBands make_bands(const Structure& structure, const Body& body, const Local
     const int s = local.spring[e], stride = local.ends[e].second - local.ends[e].first;
     const std::size_t k = static_cast<std::size_t>(std::lower_bound(bands.stride.begin(), bands.stride.end(), stride) -
                                                    bands.stride.begin());
-    bands.rest_length[(i / band_group * strides + k) * band_group + i % band_group] = structure.rest_length(s);
+    bands.rest_length[bands.group[i / band_group].begin + k * band_group + i % band_group] = structure.rest_length(s);
     if (!agrees(bands.stiffness[k], structure.stiffness(s)) || !agrees(bands.damping[k], structure.damping(s)))
       return {};
   }
+  share_equal_groups(bands.rest_length, strides, bands.group);
   return bands;
 }
 

@@ -6,16 +6,14 @@
 #include <vector>
 
 #include "sim/aligned.h"
+#include "sim/band_groups.h"
 #include "sim/structure.h"
 
 namespace billow::sim {
 
-/// Particles are taken in groups of this many, whatever the processor's vectors hold: 2, 4 or 8 doubles.
-constexpr int band_group = 16;
-
 /// Springs of a body numbered row by row, such as a grid's: every spring joins i and i + stride for one of a few
-/// strides, and those of one stride are of one material. Spring k of particle i is at
-/// [(i / 16 * strides + k) * 16 + i % 16]; where there is none, its rest length is 0.
+/// strides, and those of one stride are of one material. The rest length of particle i's spring of stride k is
+/// rest_length[group[i / 16].begin + 16 k + i % 16], 0 where there is none.
 struct SpringBands {
   int body = 0;  // of the structure
   int first_particle = 0, particles = 0;
@@ -24,6 +22,7 @@ struct SpringBands {
   std::vector<int> stride;                 //         ascending, > 0
   std::vector<double> stiffness, damping;  // [N/m], [N s/m] of each stride
   AlignedVector<double> rest_length;       // [m]
+  std::vector<BandGroup> group;            //         a row for each stride
 };
 
 /// Springs of any other body. Particles are taken four at a time, a slice, as they stand in `order`; each owns half of
