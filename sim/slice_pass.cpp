@@ -227,8 +227,7 @@ void put_sums_of_columns(const SpringSink& sink, const double* const sum[3], int
   const hn::ScalableTag<double> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   int i = begin;
-  for (; i + lanes <= end; i += lanes)
-    for (int axis = 0; axis < 3; ++axis) put(d, sink, axis, i, hn::LoadU(d, sum[axis] + i));
+  for (; i + lanes <= end; i += lanes) put(d, sink, i, load(d, sum, i));
   for (; i < end; ++i)
     for (int axis = 0; axis < 3; ++axis) sink.put(axis, i, sum[axis][i]);
 }

@@ -51,17 +51,30 @@ HWY_INLINE V damping_scale(D d, V square, V along, V rest_length, V damping) {
 
 /// SpringSink::put on a vector of particles.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void put(D d, const SpringSink& sink, int axis, std::ptrdiff_t i, V sum) {
-  double* const out = sink.out[axis] + i;
-  if (!sink.mass) return hn::StoreU(hn::Add(hn::LoadU(d, out), sum), d, out);
-  if (sink.friction != 0.0)
-    sum = hn::Sub(sum, hn::Mul(hn::Set(d, sink.friction), hn::LoadU(d, sink.velocity[axis] + i)));
-  if (sink.gravity[axis] != 0.0)
-    sum = hn::Add(sum, hn::Mul(hn::Set(d, sink.gravity[axis]), hn::LoadU(d, sink.mass + i)));
-  if (sink.applied[axis]) sum = hn::Add(sum, hn::LoadU(d, sink.applied[axis] + i));
-  sum = hn::Mul(sum, hn::LoadU(d, sink.inverse_mass + i));
-  if (sink.base[axis]) sum = hn::Add(hn::LoadU(d, sink.base[axis] + i), hn::Mul(hn::Set(d, sink.step), sum));
-  hn::StoreU(sum, d, out);
+HWY_INLINE void put(D d, const SpringSink& sink, std::ptrdiff_t i, const Vector3<V>& sums) {
+  V sum[3] = {sums.x, sums.y, sums.z};
+  if (!sink.mass) {
+    HWY_UNROLL(3)
+    for (int axis = 0; axis < 3; ++axis)
+      hn::StoreU(hn::Add(hn::LoadU(d, sink.out[axis] + i), sum[axis]), d, sink.out[axis] + i);
+    return;
+  }
+  if (sink.friction != 0.0) {
+    const V friction = hn::Set(d, sink.friction);
+    HWY_UNROLL(3)
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] = hn::Sub(sum[axis], hn::Mul(friction, hn::LoadU(d, sink.velocity[axis] + i)));
+  }
+  const V inverse_mass = hn::LoadU(d, sink.inverse_mass + i), step = hn::Set(d, sink.step);
+  HWY_UNROLL(3)
+  for (int axis = 0; axis < 3; ++axis) {
+    if (sink.gravity[axis] != 0.0)
+      sum[axis] = hn::Add(sum[axis], hn::Mul(hn::Set(d, sink.gravity[axis]), hn::LoadU(d, sink.mass + i)));
+    if (sink.applied[axis]) sum[axis] = hn::Add(sum[axis], hn::LoadU(d, sink.applied[axis] + i));
+    sum[axis] = hn::Mul(sum[axis], inverse_mass);
+    if (sink.base[axis]) sum[axis] = hn::Add(hn::LoadU(d, sink.base[axis] + i), hn::Mul(step, sum[axis]));
+    hn::StoreU(sum[axis], d, sink.out[axis] + i);
+  }
 }
 
 }  // namespace billow::sim::HWY_NAMESPACE
