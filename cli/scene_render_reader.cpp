@@ -142,11 +142,7 @@ render::Settings read_render(MapReader& scene, double duration, const std::vecto
 }
 
 std::optional<StripSpec> read_strip(MapReader& scene, double duration) {
-  const Node* node = scene.find("strip");
-  if (!node || is_word(*node, "none")) {
-    scene.record("strip", make_scalar("none"));
-    return std::nullopt;
-  }
+  if (scene.is_none("strip")) return std::nullopt;
   MapReader map = scene.map("strip", keys::strip);
   StripSpec strip;
   strip.step = map.number("step", strip.step);

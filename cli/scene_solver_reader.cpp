@@ -49,11 +49,7 @@ void read_lambda(MapReader& map, SolverSpec& solver) {
 }
 
 void read_filter(MapReader& parent, SolverSpec& solver) {
-  const Node* node = parent.find("filter");
-  if (!node || is_word(*node, "none")) {
-    parent.record("filter", make_scalar("none"));
-    return;
-  }
+  if (parent.is_none("filter")) return;
   MapReader map = parent.map("filter", keys::filter);
   sim::FilterOptions& filter = solver.filter.emplace();
   filter.kernel = map.choice("kernel", filter.kernel);

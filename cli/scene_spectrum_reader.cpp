@@ -31,11 +31,7 @@ int find_cloth(MapReader& map, const std::vector<BodyDraft>& drafts) {
 }  // namespace
 
 std::optional<SpectrumSpec> read_spectrum(MapReader& scene, double duration, const std::vector<BodyDraft>& drafts) {
-  const Node* node = scene.find("spectrum");
-  if (!node || is_word(*node, "none")) {
-    scene.record("spectrum", make_scalar("none"));
-    return std::nullopt;
-  }
+  if (scene.is_none("spectrum")) return std::nullopt;
   MapReader map = scene.map("spectrum", keys::spectrum);
   SpectrumSpec spectrum;
   spectrum.step = map.number("step", spectrum.step);

@@ -237,6 +237,13 @@ int MapReader::choice_index(std::string_view key, int fallback) {
   return index;
 }
 
+bool MapReader::is_none(std::string_view key) {
+  const Node* node = find(key);
+  if (node && !is_word(*node, "none")) return false;
+  record(key, make_scalar("none"));
+  return true;
+}
+
 MapReader MapReader::map_from(const Node* node, std::string_view key, const Section& section) {
   static const Node empty = *make_map();
   if (node && node->kind != Node::Kind::map) fail_kind(*node, key, with_words(section_.key(key), "a map"));

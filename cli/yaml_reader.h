@@ -88,6 +88,9 @@ class MapReader {
   /// The same, but read from `node`, null meaning empty: for values that are short for a map.
   MapReader map_from(const Node* node, std::string_view key, const Section& section);
 
+  /// Whether `key` is missing or says `none`, which is then entered.
+  bool is_none(std::string_view key);
+
   /// Enters a value that the caller has read from find() or require() itself.
   void record(std::string_view key, NodePtr value);
   const Key& key(std::string_view name) const { return section_.key(name); }
