@@ -64,7 +64,7 @@ void force_pass(benchmark::State& run, const std::string& name, int threads) {
   const sim::State state = stretched(on.structure);
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(on.structure.particles(), 3);
   sim::use_huge_pages(force);
-  measure(run, on.structure, threads, [&] { on.springs.add_force(state, force); });
+  measure(run, on.structure, threads, [&] { on.springs.evaluate(state, force); });
 }
 
 void filter_pass(benchmark::State& run, const std::string& name, int threads) {

@@ -55,8 +55,11 @@ class BandSweep {
 
   // Springs of particles [from, to) and the sums of [from - lag, to - lag).
   void springs_and_sums(const SpringColumns& segment, int from, int to) {
+    if (from >= to) return;
+    Vector3<V> own = load(D(), segment.position, from);
+    Started springs = start(segment, own, from + ring_begin_->stride);
     for (int i = from; i < to; i += lanes) {
-      start_springs(segment, i);
+      start_springs(segment, i, std::min(i + lanes, to - lanes), own, springs);
       end_springs(i - lag);
     }
   }
@@ -93,35 +96,62 @@ class BandSweep {
   // The sums of the springs that start in a particle wait here until those that end there are known.
   HWY_INLINE double* waiting(int i) const { return waiting_ + (i & (2 * lag - 1)); }
 
-  HWY_INLINE void start_springs(const SpringColumns& segment, int i) {
+  /// Springs whose lengths have been asked for.
+  struct Started {
+    Vector3<V> along;
+    V square, length;
+  };
+
+  HWY_INLINE static Started start(const SpringColumns& segment, const Vector3<V>& own, std::ptrdiff_t other) {
+    Started springs;
+    springs.along = load(D(), segment.position, other) - own;
+    springs.square = dot(springs.along, springs.along);
+    springs.length = hn::Sqrt(springs.square);
+    return springs;
+  }
+
+  // The springs that start in the particles from i on, of which the first stride's are started already. Each stride's
+  // lengths are asked for before the forces of the one before it are, the first one's of the particles from `behind` on
+  // last: square roots take long, and what waits for them would keep the processor from looking farther ahead.
+  HWY_INLINE void start_springs(const SpringColumns& segment, int i, int behind, Vector3<V>& own, Started& springs) {
     const D d;
     const double* rest = rest_length_ + group_[i / band_group].begin + i % band_group;
-    const double* const position[3] = {segment.position[0], segment.position[1], segment.position[2]};
-    const Vector3<V> own_position = load(d, position, i);
     Vector3<V> own_velocity;
     if constexpr (damping != SpringDamping::none) own_velocity = load(d, segment.velocity, i);
     Vector3<V> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    for (Ring *ring = ring_begin_, *const end = ring_end_; ring != end; ++ring, rest += band_group) {
-      const Vector3<V> along = load(d, position, i + ring->stride) - own_position;
-      const V square = dot(along, along), rest_length = hn::Load(d, rest);
-      V scale = elastic_scale(d, square, rest_length, hn::Set(d, ring->stiffness));
-      Vector3<V> relative;
-      if constexpr (damping != SpringDamping::none)
-        relative = load(d, segment.velocity, i + ring->stride) - own_velocity;
-      const V coefficient = hn::Set(d, ring->damping);
-      if constexpr (damping == SpringDamping::projected)
-        scale = hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, coefficient));
-      Vector3<V> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
-      if constexpr (damping == SpringDamping::relative) {
-        const V c = hn::IfThenElseZero(hn::Gt(rest_length, hn::Zero(d)), coefficient);
-        force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
-                 hn::Add(force.z, hn::Mul(c, relative.z))};
-      }
-      store(ring, force);
-      sum = {hn::Add(sum.x, force.x), hn::Add(sum.y, force.y), hn::Add(sum.z, force.z)};
+    Ring* ring = ring_begin_;
+    for (Ring* const last = ring_end_ - 1; ring != last; ++ring, rest += band_group) {
+      const Started next = start(segment, own, i + (ring + 1)->stride);
+      finish(segment, i, own_velocity, springs, ring, rest, sum);
+      springs = next;
     }
+    own = load(d, segment.position, behind);
+    const Started next = start(segment, own, behind + ring_begin_->stride);
+    finish(segment, i, own_velocity, springs, ring, rest, sum);
+    springs = next;
     double* const wait = waiting(i);
     hn::Store(sum.x, d, wait), hn::Store(sum.y, d, wait + 2 * lag), hn::Store(sum.z, d, wait + 4 * lag);
+  }
+
+  HWY_INLINE void finish(const SpringColumns& segment, int i, const Vector3<V>& own_velocity, const Started& springs,
+                         Ring* ring, const double* rest, Vector3<V>& sum) {
+    const D d;
+    const Vector3<V>& along = springs.along;
+    const V rest_length = hn::Load(d, rest);
+    V scale = elastic_scale(d, springs.length, rest_length, hn::Set(d, ring->stiffness));
+    Vector3<V> relative;
+    if constexpr (damping != SpringDamping::none) relative = load(d, segment.velocity, i + ring->stride) - own_velocity;
+    const V coefficient = hn::Set(d, ring->damping);
+    if constexpr (damping == SpringDamping::projected)
+      scale = hn::Add(scale, damping_scale(d, springs.square, dot(along, relative), rest_length, coefficient));
+    Vector3<V> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
+    if constexpr (damping == SpringDamping::relative) {
+      const V c = hn::IfThenElseZero(hn::Gt(rest_length, hn::Zero(d)), coefficient);
+      force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
+               hn::Add(force.z, hn::Mul(c, relative.z))};
+    }
+    store(ring, force);
+    sum = {hn::Add(sum.x, force.x), hn::Add(sum.y, force.y), hn::Add(sum.z, force.z)};
   }
 
   HWY_INLINE static void store(Ring* ring, const Vector3<V>& force) {

@@ -32,19 +32,6 @@ struct SliceRing {
   double* velocity(std::size_t offset) const { return rows + offset + 8; }
 };
 
-/// The quads of one slice.
-struct Quads {
-  const std::uint32_t *other, *end;
-  const double *rest_length, *stiffness, *damping;
-};
-
-Quads quads_of(const SpringSlices& slices, int slice) {
-  const std::ptrdiff_t begin = slice_lanes * std::ptrdiff_t{slices.begin[static_cast<std::size_t>(slice)]},
-                       end = slice_lanes * std::ptrdiff_t{slices.begin[static_cast<std::size_t>(slice) + 1]};
-  return {slices.other.data() + begin, slices.other.data() + end, slices.rest_length.data() + begin,
-          slices.stiffness.data() + begin, slices.damping.data() + begin};
-}
-
 #if HWY_MAX_BYTES >= 32
 
 /// Where four particles' positions, sums or velocities are.
@@ -78,38 +65,101 @@ HWY_INLINE Four four_rows(double* at, std::size_t a, std::size_t b, std::size_t 
   return {at + a, at + b, at + c, at + e};
 }
 
-// The forces of a slice's springs: off their other ends, and their sums onto the slice's own particles.
+/// A slice's own particles.
 template <SpringDamping damping>
-HWY_INLINE void slice_forces(const Quads& quads, const SliceRing<damping>& ring, std::size_t own) {
-  const Quad d;
+struct Own {
+  Vector3<QV> position, velocity;
+};
+
+template <SpringDamping damping>
+HWY_INLINE Own<damping> own_of(const SliceRing<damping>& ring, std::size_t at) {
   constexpr std::size_t row = SliceRing<damping>::row;
-  const Vector3<QV> own_position = transposed(load_rows(four_rows(ring.position(own), 0, row, 2 * row, 3 * row)));
-  Vector3<QV> own_velocity;
+  Own<damping> own;
+  own.position = transposed(load_rows(four_rows(ring.position(at), 0, row, 2 * row, 3 * row)));
   if constexpr (damping != SpringDamping::none)
-    own_velocity = transposed(load_rows(four_rows(ring.velocity(own), 0, row, 2 * row, 3 * row)));
-  Vector3<QV> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  std::ptrdiff_t s = 0;
-  for (const std::uint32_t* other = quads.other; other != quads.end; other += slice_lanes, s += slice_lanes) {
-    const auto at = [&](double* rows) HWY_ATTR { return four_rows(rows, other[0], other[1], other[2], other[3]); };
-    const Vector3<QV> along = transposed(load_rows(at(ring.position(0)))) - own_position;
-    const QV square = dot(along, along), rest_length = hn::Load(d, quads.rest_length + s);
-    QV scale = elastic_scale(d, square, rest_length, hn::Load(d, quads.stiffness + s));
+    own.velocity = transposed(load_rows(four_rows(ring.velocity(at), 0, row, 2 * row, 3 * row)));
+  return own;
+}
+
+/// The forces of the springs of slices, taken one after another: off the springs' other ends, and their sums onto the
+/// slices' own particles. A quad's lengths are asked for before the forces of the one before it are: square roots take
+/// long, and what waits for them would keep the processor from looking farther ahead.
+template <SpringDamping damping>
+class SliceForces {
+ public:
+  /// `at`: where in the ring the first slice's particles are.
+  SliceForces(const SpringSlices& slices, const SliceRing<damping>& ring, int first_slice, std::size_t at)
+      : slices_(slices), ring_(ring), own_(own_of(ring, at)), quad_(start(own_, place(first_slice))) {}
+
+  /// `next`: where the particles of the slice behind it are.
+  HWY_INLINE void take(int slice, std::size_t at, std::size_t next) {
+    const Quad d;
+    constexpr std::size_t row = SliceRing<damping>::row;
+    Vector3<QV> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Own<damping> own = own_;
+    Started quad = quad_;
+    std::size_t k = place(slice);
+    for (const std::size_t last = place(slice + 1) - slice_lanes; k != last; k += slice_lanes) {
+      const Started behind = start(own, k + slice_lanes);
+      finish(own, quad, k, sum);
+      quad = behind;
+    }
+    own_ = own_of(ring_, next);
+    quad_ = start(own_, k + slice_lanes);
+    finish(own, quad, k, sum);
+    add(rows_from(sum), four_rows(ring_.sum(at), 0, row, 2 * row, 3 * row));
+  }
+
+ private:
+  /// Four springs whose lengths have been asked for.
+  struct Started {
+    Vector3<QV> along;
+    QV square, length;
+  };
+
+  std::size_t place(int slice) const {
+    return static_cast<std::size_t>(slice_lanes * std::ptrdiff_t{slices_.begin[static_cast<std::size_t>(slice)]});
+  }
+
+  HWY_INLINE Four others(double* rows, std::size_t k) const {
+    const std::uint32_t* const other = slices_.other.data() + k;
+    return four_rows(rows, other[0], other[1], other[2], other[3]);
+  }
+
+  HWY_INLINE Started start(const Own<damping>& own, std::size_t k) const {
+    Started quad;
+    quad.along = transposed(load_rows(others(ring_.position(0), k))) - own.position;
+    quad.square = dot(quad.along, quad.along);
+    quad.length = hn::Sqrt(quad.square);
+    return quad;
+  }
+
+  HWY_INLINE void finish(const Own<damping>& own, const Started& quad, std::size_t k, Vector3<QV>& sum) const {
+    const Quad d;
+    const Vector3<QV>& along = quad.along;
+    const QV rest_length = hn::Load(d, slices_.rest_length.data() + k);
+    QV scale = elastic_scale(d, quad.length, rest_length, hn::Load(d, slices_.stiffness.data() + k));
     Vector3<QV> relative;
-    if constexpr (damping != SpringDamping::none) relative = transposed(load_rows(at(ring.velocity(0)))) - own_velocity;
+    if constexpr (damping != SpringDamping::none)
+      relative = transposed(load_rows(others(ring_.velocity(0), k))) - own.velocity;
     if constexpr (damping == SpringDamping::projected)
-      scale =
-          hn::Add(scale, damping_scale(d, square, dot(along, relative), rest_length, hn::Load(d, quads.damping + s)));
+      scale = hn::Add(scale, damping_scale(d, quad.square, dot(along, relative), rest_length,
+                                           hn::Load(d, slices_.damping.data() + k)));
     Vector3<QV> force{hn::Mul(scale, along.x), hn::Mul(scale, along.y), hn::Mul(scale, along.z)};
     if constexpr (damping == SpringDamping::relative) {
-      const QV c = hn::Load(d, quads.damping + s);
+      const QV c = hn::Load(d, slices_.damping.data() + k);
       force = {hn::Add(force.x, hn::Mul(c, relative.x)), hn::Add(force.y, hn::Mul(c, relative.y)),
                hn::Add(force.z, hn::Mul(c, relative.z))};
     }
     sum = {hn::Add(sum.x, force.x), hn::Add(sum.y, force.y), hn::Add(sum.z, force.z)};
-    subtract(rows_from(force), at(ring.sum(0)));
+    subtract(rows_from(force), others(ring_.sum(0), k));
   }
-  add(rows_from(sum), four_rows(ring.sum(own), 0, row, 2 * row, 3 * row));
-}
+
+  const SpringSlices& slices_;
+  const SliceRing<damping> ring_;
+  Own<damping> own_;
+  Started quad_;
+};
 
 #else  // two doubles to a vector: plain arithmetic is as fast, and has the same bits
 
@@ -118,31 +168,52 @@ using Plain = std::array<double, 3>;
 inline Plain difference(const double* a, const double* b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double dot(const Plain& a, const Plain& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// The forces of the springs of slices: off the springs' other ends, and their sums onto the slices' own particles.
 template <SpringDamping damping>
-void slice_forces(const Quads& quads, const SliceRing<damping>& ring, std::size_t own) {
-  double sum[slice_lanes][3] = {};
-  std::size_t s = 0;
-  for (const std::uint32_t* other = quads.other; other != quads.end; ++other, ++s) {
-    const std::size_t lane = s % slice_lanes, i = own + SliceRing<damping>::row * lane, j = *other;
-    const double rest_length = quads.rest_length[s];
-    const Plain along = difference(ring.position(j), ring.position(i));
-    const double square = dot(along, along), length = std::sqrt(square);
-    double scale = std::min(length, rest_length) > 0.0 ? quads.stiffness[s] * (length - rest_length) / length : 0.0;
-    Plain relative = {};
-    if constexpr (damping != SpringDamping::none) relative = difference(ring.velocity(j), ring.velocity(i));
-    if constexpr (damping == SpringDamping::projected)
-      scale += std::min(square, rest_length) > 0.0 ? quads.damping[s] * dot(along, relative) / square : 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double force = scale * along[axis];
-      if constexpr (damping == SpringDamping::relative) force += quads.damping[s] * relative[axis];
-      sum[lane][axis] += force;
-      ring.sum(j)[axis] -= force;
+class SliceForces {
+ public:
+  SliceForces(const SpringSlices& slices, const SliceRing<damping>& ring, int, std::size_t)
+      : slices_(slices), ring_(ring) {}
+
+  void take(int slice, std::size_t at, std::size_t) const {
+    constexpr std::size_t row = SliceRing<damping>::row;
+    double sum[slice_lanes][3] = {};
+    for (std::size_t k = place(slice); k != place(slice + 1); ++k) {
+      const std::size_t lane = k % slice_lanes;
+      const Plain force = force_of(at + row * lane, k);
+      double* const other = ring_.sum(slices_.other[k]);
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[lane][axis] += force[axis], other[axis] -= force[axis];
     }
+    for (std::size_t lane = 0; lane < slice_lanes; ++lane)
+      for (std::size_t axis = 0; axis < 3; ++axis) ring_.sum(at + row * lane)[axis] += sum[lane][axis];
   }
-  for (std::size_t lane = 0; lane < slice_lanes; ++lane)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      ring.sum(own + SliceRing<damping>::row * lane)[axis] += sum[lane][axis];
-}
+
+ private:
+  std::size_t place(int slice) const {
+    return static_cast<std::size_t>(slice_lanes * std::ptrdiff_t{slices_.begin[static_cast<std::size_t>(slice)]});
+  }
+
+  Plain force_of(std::size_t i, std::size_t k) const {
+    const std::size_t j = slices_.other[k];
+    const double rest_length = slices_.rest_length[k];
+    const Plain along = difference(ring_.position(j), ring_.position(i));
+    const double square = dot(along, along), length = std::sqrt(square);
+    double scale = std::min(length, rest_length) > 0.0 ? slices_.stiffness[k] * (length - rest_length) / length : 0.0;
+    Plain relative = {};
+    if constexpr (damping != SpringDamping::none) relative = difference(ring_.velocity(j), ring_.velocity(i));
+    if constexpr (damping == SpringDamping::projected)
+      scale += std::min(square, rest_length) > 0.0 ? slices_.damping[k] * dot(along, relative) / square : 0.0;
+    Plain force;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      force[axis] = scale * along[axis];
+      if constexpr (damping == SpringDamping::relative) force[axis] += slices_.damping[k] * relative[axis];
+    }
+    return force;
+  }
+
+  const SpringSlices& slices_;
+  const SliceRing<damping> ring_;
+};
 
 #endif
 
@@ -160,10 +231,15 @@ class SliceSweep {
   void run(int begin, int end) {
     const int first = std::max(begin - slices_.reach, 0), last = std::min(end + slices_.reach, slices_.slices);
     int loaded = std::max(first - slices_.reach, 0), done = begin;
-    for (int slice = first; slice < last; ++slice) {
+    const auto load_around = [&](int slice) {
       for (const int needed = std::min(slice + slices_.reach + 1, slices_.slices); loaded < needed; ++loaded)
         load(loaded);
-      slice_forces<damping>(quads_of(slices_, slice), ring_, row(slice));
+    };
+    load_around(first);
+    SliceForces<damping> forces(slices_, ring_, first, row(first));
+    for (int slice = first; slice < last; ++slice) {
+      load_around(slice + 1);
+      forces.take(slice, row(slice), row(slice + 1));
       if (slice - slices_.reach >= done) finish(done++);
     }
     while (done < end) finish(done++);
@@ -180,7 +256,7 @@ class SliceSweep {
     for (int p = begin; p < end; ++p, r += SliceRing<damping>::row) {
       const int i = slices_.order[static_cast<std::size_t>(p)];
       const auto copy = [i](const double* const column[3], double* to) {
-        to[0] = column[0][i], to[1] = column[1][i], to[2] = column[2][i], to[3] = 0.0;
+        to[0] = column[0][i], to[1] = column[1][i], to[2] = column[2][i];
       };
       copy(columns_.position, ring_.position(r));
       std::fill_n(ring_.sum(r), 4, 0.0);
@@ -194,7 +270,7 @@ class SliceSweep {
     for (int p = begin; p < end; ++p, r += SliceRing<damping>::row) {
       const int i = slices_.order[static_cast<std::size_t>(p)];
       const double* const sum = ring_.sum(r);
-      out_[0][i] += sum[0], out_[1][i] += sum[1], out_[2][i] += sum[2];
+      out_[0][i] = sum[0], out_[1][i] = sum[1], out_[2][i] = sum[2];
     }
   }
 
@@ -206,21 +282,19 @@ class SliceSweep {
 
 }  // namespace
 
-void add_springs_of_slices(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin,
+void sum_springs_of_slices(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin,
                            int end) {
   SpringColumns whole;
-  double* out[3];
   for (int axis = 0; axis < 3; ++axis) {
     whole.position[axis] = columns.position[axis] + slices.first_particle;
     whole.velocity[axis] = columns.velocity[axis] + slices.first_particle;
-    out[axis] = sum[axis] + slices.first_particle;
   }
   if (!slices.damped)
-    SliceSweep<SpringDamping::none>(slices, whole, out).run(begin, end);
+    SliceSweep<SpringDamping::none>(slices, whole, sum).run(begin, end);
   else if (slices.damping_model == DampingModel::projected)
-    SliceSweep<SpringDamping::projected>(slices, whole, out).run(begin, end);
+    SliceSweep<SpringDamping::projected>(slices, whole, sum).run(begin, end);
   else
-    SliceSweep<SpringDamping::relative>(slices, whole, out).run(begin, end);
+    SliceSweep<SpringDamping::relative>(slices, whole, sum).run(begin, end);
 }
 
 void put_sums_of_columns(const SpringSink& sink, const double* const sum[3], int begin, int end) {
@@ -238,11 +312,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace billow::sim {
 
-HWY_EXPORT(add_springs_of_slices);
+HWY_EXPORT(sum_springs_of_slices);
 HWY_EXPORT(put_sums_of_columns);
 
-void add_springs(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin, int end) {
-  HWY_DYNAMIC_DISPATCH(add_springs_of_slices)(slices, columns, sum, begin, end);
+void sum_springs(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin, int end) {
+  HWY_DYNAMIC_DISPATCH(sum_springs_of_slices)(slices, columns, sum, begin, end);
 }
 
 void put_sums(const SpringSink& sink, const double* const sum[3], int begin, int end) {

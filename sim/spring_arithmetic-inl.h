@@ -36,8 +36,7 @@ HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
 
 // k (l - L) / l; what is not a spring (L = 0) and a spring of zero length, which has no direction, push nowhere.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V elastic_scale(D d, V square, V rest_length, V stiffness) {
-  const V length = hn::Sqrt(square);
+HWY_INLINE V elastic_scale(D d, V length, V rest_length, V stiffness) {
   const V scale = hn::Div(hn::Mul(stiffness, hn::Sub(length, rest_length)), length);
   return hn::IfThenElseZero(hn::Gt(hn::Min(length, rest_length), hn::Zero(d)), scale);
 }
@@ -55,8 +54,7 @@ HWY_INLINE void put(D d, const SpringSink& sink, std::ptrdiff_t i, const Vector3
   V sum[3] = {sums.x, sums.y, sums.z};
   if (!sink.mass) {
     HWY_UNROLL(3)
-    for (int axis = 0; axis < 3; ++axis)
-      hn::StoreU(hn::Add(hn::LoadU(d, sink.out[axis] + i), sum[axis]), d, sink.out[axis] + i);
+    for (int axis = 0; axis < 3; ++axis) hn::StoreU(sum[axis], d, sink.out[axis] + i);
     return;
   }
   if (sink.friction != 0.0) {

@@ -48,21 +48,25 @@ void add_other(const Structure& structure, const Body& body, const State& state,
 
 // Slices take particles in an order of their own: their sums wait in `out`, and what else a sink does comes after all.
 void sweep_slices(const SpringSlices& slices, const SpringColumns& columns, const SpringSink& sink) {
-  const int first = slices.first_particle;
-  if (sink.mass)
-    for (double* out : sink.out) std::fill_n(out + first, slices.particles, 0.0);
+  const SpringSink own = sink.from(slices.first_particle);
   // A part repeats the springs of two reaches.
   for_each_range(
       slices.slices, 1, std::max(least_part / slice_lanes, 8 * slices.reach),
-      [&](int begin, int end) { add_springs(slices, columns, sink.out, begin, end); }, slice_lanes);
+      [&](int begin, int end) { sum_springs(slices, columns, own.out, begin, end); }, slice_lanes);
   if (!sink.mass) return;
-  const SpringSink own = sink.from(first);
   for_each_range(slices.particles, 1, least_part, [&](int begin, int end) { put_sums(own, own.out, begin, end); });
 }
 
 }  // namespace
 
 void SpringForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
+  static thread_local Eigen::MatrixX3d springs;  // kept from call to call
+  evaluate(state, springs);
+  force += springs;
+}
+
+void SpringForce::evaluate(const State& state, Eigen::MatrixX3d& force) const {
+  force.resize(structure_.particles(), 3);
   SpringSink sink;
   for (int axis = 0; axis < 3; ++axis) sink.out[axis] = force.col(axis).data();
   sweep(state, sink);

@@ -13,6 +13,8 @@ class SpringForce : public ForceTerm {
  public:
   explicit SpringForce(const Structure& structure) : structure_(structure), plan_(structure) {}
   void add_force(const State& state, Eigen::MatrixX3d& force) const override;
+  /// force (n x 3, [N]) = what add_force adds.
+  void evaluate(const State& state, Eigen::MatrixX3d& force) const;
   /// Puts the sum of its springs, also where there are none, of every particle into `sink`, with its body's friction.
   void sweep(const State& state, const SpringSink& sink) const;
   double energy(const State& state) const override;

@@ -18,9 +18,9 @@ struct SpringColumns {
 /// same bits.
 void sweep_springs(const SpringBands& bands, const SpringColumns& columns, const SpringSink& sink, int begin, int end);
 
-/// sum (three columns, one entry per particle of the structure) += the springs' forces and damping on the particles of
-/// slices [begin, end). A particle's sum runs over its springs in the order of the slices, whatever begin and end are.
-void add_springs(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin, int end);
+/// sum (three columns, one entry per particle of the body) = the springs' forces and damping on the particles of slices
+/// [begin, end). A particle's sum runs over its springs in the order of the slices, whatever begin and end are.
+void sum_springs(const SpringSlices& slices, const SpringColumns& columns, double* const sum[3], int begin, int end);
 
 /// Puts sums, columns like the sink's, of particles [begin, end) into `sink`; `sum` may be its `out`.
 void put_sums(const SpringSink& sink, const double* const sum[3], int begin, int end);

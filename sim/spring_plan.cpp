@@ -94,6 +94,32 @@ void even_out(const Owned& owned, std::vector<int>& order) {
   }
 }
 
+// A slice's springs so that those to the same particle are far apart: a sum that was stored just before makes the next
+// that is added to it wait. Each takes of its springs the one to the particle that had its turn longest ago.
+void spread_out(const std::vector<int>& order, Owned& owned) {
+  std::vector<int> turn(owned.size(), -1);
+  int now = 0;
+  const auto take_turn = [&](std::vector<OwnedSpring>& springs, std::size_t k) {
+    const auto turn_of = [&](const OwnedSpring& spring) { return turn[static_cast<std::size_t>(spring.other)]; };
+    const auto begin = springs.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto chosen = std::min_element(
+        begin, springs.end(), [&](const OwnedSpring& a, const OwnedSpring& b) { return turn_of(a) < turn_of(b); });
+    std::rotate(begin, chosen, chosen + 1);
+    turn[static_cast<std::size_t>(begin->other)] = now++;
+  };
+  for (std::size_t first = 0; first < order.size(); first += slice_lanes) {
+    const std::size_t end = std::min(first + slice_lanes, order.size());
+    bool more = true;
+    for (std::size_t k = 0; more; ++k) {
+      more = false;
+      for (std::size_t p = first; p < end; ++p)
+        if (std::vector<OwnedSpring>& springs = owned[static_cast<std::size_t>(order[p])]; k < springs.size())
+          take_turn(springs, k), more = true;
+    }
+    for (std::size_t p = first; p < end; ++p) turn[static_cast<std::size_t>(order[p])] = now;
+  }
+}
+
 int farthest(const Owned& owned, const std::vector<int>& place) {
   int reach = 0;
   for (std::size_t i = 0; i < owned.size(); ++i)
@@ -111,7 +137,7 @@ void append_slice(const Structure& structure, const Owned& owned, const std::vec
     return p < slices.particles ? slices.order[static_cast<std::size_t>(p)] : -1;
   };
   const std::size_t row = slice_row(slices.damped);
-  std::size_t longest = 0;
+  std::size_t longest = 1;
   for (int lane = 0; lane < slice_lanes; ++lane)
     if (particle(lane) >= 0) longest = std::max(longest, owned[static_cast<std::size_t>(particle(lane))].size());
   for (std::size_t k = 0; k < longest; ++k)
@@ -147,10 +173,12 @@ SpringSlices make_slices(const Structure& structure, const Body& body, const Loc
     std::stable_sort(springs.begin(), springs.end(), [&](const OwnedSpring& a, const OwnedSpring& b) {
       return place[static_cast<std::size_t>(a.other)] < place[static_cast<std::size_t>(b.other)];
     });
+  spread_out(slices.order, owned);
   slices.reach = farthest(owned, place);
-  slices.ring = static_cast<int>(std::bit_ceil(static_cast<unsigned>(slice_lanes * (2 * slices.reach + 1))));
+  slices.ring = static_cast<int>(std::bit_ceil(static_cast<unsigned>(slice_lanes * (2 * slices.reach + 2))));
   slices.begin.push_back(0);
   for (int t = 0; t < slices.slices; ++t) append_slice(structure, owned, place, t, slices);
+  slices.other.resize(slices.other.size() + slice_lanes, 0);
   return slices;
 }
 

@@ -37,8 +37,10 @@ struct SpringSlices {
   int ring = 0;            //         rows, a power of two
   int reach = 0;           //         slices: no spring ends farther from the slice that owns it
   std::vector<int> order;  //         the body's particles as the slices take them
-  std::vector<int> begin;  //         slice t owns quads begin[t] ... begin[t + 1] - 1, four springs side by side
-  std::vector<std::uint32_t> other;   //         where in the ring, in doubles, the end is that is not the owner
+  std::vector<int>
+      begin;  //         slice t owns quads begin[t] ... begin[t + 1] - 1, four springs side by side; one at least
+  std::vector<std::uint32_t>
+      other;  //         where in the ring, in doubles, the end is that is not the owner; one more quad
   AlignedVector<double> rest_length;  // [m]     0 where a particle owns fewer springs than others of its slice
   AlignedVector<double> stiffness;    // [N/m]
   AlignedVector<double> damping;      // [N s/m]

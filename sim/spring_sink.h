@@ -6,7 +6,7 @@
 namespace billow::sim {
 
 /// Where a spring pass puts the sum f of a particle's springs; columns have one entry per particle. Without `mass`:
-/// out += f. With it: out = base + step a, or a itself without `base`, where a = M^-1 (f - friction v + m g + applied).
+/// out = f. With it: out = base + step a, or a itself without `base`, where a = M^-1 (f - friction v + m g + applied).
 struct SpringSink {
   double* out[3] = {};
   const double *mass = nullptr, *inverse_mass = nullptr;  // [kg], [1/kg]
@@ -31,7 +31,7 @@ struct SpringSink {
 
   void put(int axis, std::ptrdiff_t i, double sum) const {
     if (!mass) {
-      out[axis][i] += sum;
+      out[axis][i] = sum;
       return;
     }
     if (friction != 0.0) sum -= friction * velocity[axis][i];

@@ -47,11 +47,11 @@ HWY_INLINE Vector3<QV> transposed(const Rows& rows) {
           hn::ConcatUpperUpper(d, xz_ce, xz_ab)};
 }
 
-/// Four rows of x, y, z, 0.
+/// Four rows of x, y, z and a number that means nothing.
 HWY_INLINE Rows rows_from(const Vector3<QV>& axes) {
   const Quad d;
   const QV xy_02 = hn::InterleaveLower(d, axes.x, axes.y), xy_13 = hn::InterleaveUpper(d, axes.x, axes.y);
-  const QV z_02 = hn::InterleaveLower(d, axes.z, hn::Zero(d)), z_13 = hn::InterleaveUpper(d, axes.z, hn::Zero(d));
+  const QV z_02 = axes.z, z_13 = hn::InterleaveUpper(d, axes.z, axes.z);
   return {hn::ConcatLowerLower(d, z_02, xy_02), hn::ConcatLowerLower(d, z_13, xy_13),
           hn::ConcatUpperUpper(d, z_02, xy_02), hn::ConcatUpperUpper(d, z_13, xy_13)};
 }
