@@ -83,7 +83,7 @@ Owned shared_out(const LocalSprings& local, int particles) {
 
 // Within windows of the order, particles that own many first: then those of a slice own equally many.
 void even_out(const Owned& owned, std::vector<int>& order) {
-  constexpr std::ptrdiff_t window = 64;
+  constexpr std::ptrdiff_t window = 128;
   const auto more = [&](int a, int b) {
     return owned[static_cast<std::size_t>(a)].size() > owned[static_cast<std::size_t>(b)].size();
   };
