@@ -2,8 +2,8 @@
 // processor has. No indices, no sums, no memory: what is left is the arithmetic.
 #include <benchmark/benchmark.h>
 
+#include "base/aligned.h"
 #include "bench/sections.h"
-#include "sim/aligned.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/ceiling.cpp"
@@ -43,7 +43,7 @@ namespace {
 
 void ceiling(benchmark::State& state) {
   constexpr std::size_t count = 256;  // 22 kB in all
-  sim::AlignedVector<double> in(8 * count, 1.0), out(3 * count);
+  AlignedVector<double> in(8 * count, 1.0), out(3 * count);
   for (std::size_t s = 0; s < 3 * count; ++s) in[3 * count + s] = 1.5 + 0.001 * static_cast<double>(s);
   for (auto _ : state) {
     HWY_DYNAMIC_DISPATCH(spring_arithmetic)(in.data(), out.data(), count);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "sim/cloth.h"
-#include "sim/mesh_import.h"
+#include "sim/body/cloth.h"
+#include "sim/mesh/mesh_import.h"
 
 namespace billow::bench {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sim/mesh.h"
-#include "sim/structure.h"
+#include "sim/body/structure.h"
+#include "sim/mesh/mesh.h"
 
 namespace billow::bench {
 

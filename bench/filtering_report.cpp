@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/scene.h"
-#include "cli/simulation.h"
-#include "sim/error.h"
-#include "sim/measured_limit.h"
+#include "base/error.h"
+#include "cli/scene/scene.h"
+#include "cli/scene/simulation.h"
+#include "sim/body/momenta.h"
+#include "sim/limit/measured_limit.h"
 
 namespace billow {
 namespace {

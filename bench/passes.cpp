@@ -6,16 +6,16 @@
 #include <map>
 #include <memory>
 
+#include "base/huge_pages.h"
+#include "base/random.h"
 #include "bench/cloths.h"
 #include "bench/sections.h"
-#include "sim/block_jacobi.h"
-#include "sim/conjugate_gradient.h"
-#include "sim/filter.h"
-#include "sim/filtered_step.h"
-#include "sim/forces.h"
-#include "sim/huge_pages.h"
-#include "sim/random.h"
-#include "sim/spring_force.h"
+#include "sim/filter/filter.h"
+#include "sim/force/forces.h"
+#include "sim/force/spring_force.h"
+#include "sim/linear/block_jacobi.h"
+#include "sim/linear/conjugate_gradient.h"
+#include "sim/step/step.h"
 
 namespace billow::bench {
 
@@ -27,7 +27,7 @@ constexpr double step_size = 1e-6;  // [s] so small that the cloth stays as it i
 sim::State stretched(const sim::Structure& structure) {
   sim::State state = sim::rest_state(structure);
   state.position.col(0) *= 1.02;
-  sim::use_huge_pages(state.position), sim::use_huge_pages(state.velocity);  // as a run's are
+  use_huge_pages(state.position), use_huge_pages(state.velocity);  // as a run's are
   return state;
 }
 
@@ -64,19 +64,23 @@ void force_pass(benchmark::State& run, const std::string& name, int threads) {
   const Prepared& on = prepared(name);
   const sim::State state = stretched(on.structure);
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(on.structure.particles(), 3);
-  sim::use_huge_pages(force);
-  measure(run, on.structure, threads, [&] { on.springs.evaluate(state, force); });
+  use_huge_pages(force);
+  sim::ForceScratch scratch;
+  sim::SpringSink sink;
+  for (int axis = 0; axis < 3; ++axis) sink.out[axis] = force.col(axis).data();
+  measure(run, on.structure, threads, [&] { on.springs.sweep(state, sink, false, scratch); });
 }
 
 void filter_pass(benchmark::State& run, const std::string& name, int threads) {
   const Prepared& on = prepared(name);
   sim::State state = stretched(on.structure);
-  measure(run, on.structure, threads, [&] { on.filter.apply(state.position, 0.0, state.velocity); });
+  sim::FilterScratch scratch;
+  measure(run, on.structure, threads, [&] { on.filter.apply(state.position, 0.0, state.velocity, scratch); });
 }
 
 void filtered_step(benchmark::State& run, const std::string& name, int threads) {
   const Prepared& on = prepared(name);
-  sim::FilteredStep step(on.structure, on.forces, sim::Method::fb_euler, {}, &on.filter);
+  sim::Step step(on.forces, sim::Method::fb_euler, {}, &on.filter);
   sim::State state = stretched(on.structure);
   measure(run, on.structure, threads, [&] { step(state, step_size); });
 }
@@ -95,7 +99,7 @@ void cg_iteration(benchmark::State& run, const std::string& name, int threads) {
   blocks.set(system);
   const auto multiply = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { system.multiply(x, y); };
   const auto precondition = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { blocks.apply(x, y); };
-  const Eigen::MatrixX3d right = sim::seeded_noise(n, 1);
+  const Eigen::MatrixX3d right = seeded_noise(n, 1);
   Eigen::MatrixX3d x(n, 3);
   sim::ConjugateGradientSpace space;
   measure(run, on.structure, threads, [&] {

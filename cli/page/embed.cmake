@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file that holds FILES (a comma-separated list) as text: see cli/page_file.h.
+# Writes OUTPUT, a C++ file that holds FILES (a comma-separated list) as text: see cli/page/page_file.h.
 string(REPLACE "," ";" files "${FILES}")
 set(entries "")
 foreach(file IN LISTS files)
@@ -7,7 +7,7 @@ foreach(file IN LISTS files)
   string(APPEND entries "    {\"${name}\", R\"billow_page(${text})billow_page\"},\n")
 endforeach()
 file(WRITE "${OUTPUT}" "// Made from cli/page by cli/page/embed.cmake; change the files there.
-#include \"cli/page_file.h\"
+#include \"cli/page/page_file.h\"
 
 #include <map>
 #include <stdexcept>

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "render/png.h"
+#include "render/image/png.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/tool.h"
 

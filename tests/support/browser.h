@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace billow::test {
 

@@ -1,7 +1,7 @@
 // A small wavy sheet to draw: built in code, so that a golden image depends on the renderer alone.
 #pragma once
 
-#include "render/mesh_renderer.h"
+#include "render/frame/mesh_renderer.h"
 
 namespace billow::test {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "render/compare.h"
-#include "render/png.h"
+#include "render/image/compare.h"
+#include "render/image/png.h"
 
 namespace billow::test {
 namespace {

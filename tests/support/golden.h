@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace billow::test {
 

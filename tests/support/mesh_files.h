@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/mesh.h"
+#include "sim/mesh/mesh.h"
 
 namespace billow::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/scene.h"
+#include "cli/scene/scene.h"
 #include "tests/support/mesh_files.h"
 
 namespace billow::test {

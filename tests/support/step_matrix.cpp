@@ -8,26 +8,6 @@ namespace billow::test {
 using sim::State;
 using sim::Structure;
 
-void LinearForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
-  Eigen::MatrixX3d product;
-  linearisation_.stiffness.multiply(state.position, product);
-  force -= product;
-  linearisation_.damping.multiply(state.velocity, product);
-  force -= product;
-}
-
-void LinearForce::add_linearisation(const State&, double position_weight, double velocity_weight, sim::JacobianForm,
-                                    sim::StiffnessMatrix& matrix) const {
-  matrix.add_scaled(linearisation_.stiffness, position_weight);
-  matrix.add_scaled(linearisation_.damping, velocity_weight);
-}
-
-sim::Forces linear_forces(const Structure& structure, const sim::Linearisation& linearisation) {
-  std::vector<std::unique_ptr<sim::ForceTerm>> terms;
-  terms.push_back(std::make_unique<LinearForce>(linearisation));
-  return sim::Forces(structure, std::move(terms));
-}
-
 namespace {
 
 std::vector<int> free_particles(const Structure& structure) {
@@ -66,6 +46,10 @@ Eigen::MatrixXd step_matrix(const Structure& structure, const LinearStep& step, 
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double least_eigenvalue(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
 }
 
 Eigen::MatrixXd dense_dynamics(const Structure& structure, const sim::StiffnessMatrix& stiffness) {

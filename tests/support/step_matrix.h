@@ -5,26 +5,10 @@
 #include <functional>
 #include <memory>
 
-#include "sim/filtered_step.h"
-#include "sim/forces.h"
-#include "sim/stiffness.h"
+#include "sim/limit/linear_force.h"
+#include "sim/step/step.h"
 
 namespace billow::test {
-
-/// f = -K x - C v, where the state's positions are displacements.
-class LinearForce : public sim::ForceTerm {
- public:
-  explicit LinearForce(const sim::Linearisation& linearisation) : linearisation_(linearisation) {}
-  void add_force(const sim::State& state, Eigen::MatrixX3d& force) const override;
-  void add_linearisation(const sim::State&, double position_weight, double velocity_weight, sim::JacobianForm,
-                         sim::StiffnessMatrix& matrix) const override;
-
- private:
-  const sim::Linearisation& linearisation_;
-};
-
-/// The forces of one linearisation. `structure` and `linearisation` must outlive them.
-sim::Forces linear_forces(const sim::Structure& structure, const sim::Linearisation& linearisation);
 
 /// A step on displacements and velocities.
 using LinearStep = std::function<void(sim::State& state, double h)>;
@@ -35,6 +19,9 @@ Eigen::MatrixXd step_matrix(const sim::Structure& structure, const LinearStep& s
 
 /// Largest modulus of the eigenvalues.
 double spectral_radius(const Eigen::MatrixXd& matrix);
+
+/// Of a symmetric matrix.
+double least_eigenvalue(const Eigen::MatrixXd& matrix);
 
 /// M^-1 K of the free particles (3 n_free x 3 n_free), from K applied to every unit displacement.
 Eigen::MatrixXd dense_dynamics(const sim::Structure& structure, const sim::StiffnessMatrix& stiffness);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/random.h"
+#include "base/random.h"
 
 namespace billow::test {
 
@@ -99,7 +99,7 @@ sim::Structure ring(int particles, double mass, double stiffness, double rest_le
 }
 
 sim::Structure with_uneven_masses(sim::Structure structure, double spread, std::uint64_t seed) {
-  structure.mass.array() *= 1.0 + spread * sim::seeded_noise(structure.particles(), seed).col(0).array();
+  structure.mass.array() *= 1.0 + spread * seeded_noise(structure.particles(), seed).col(0).array();
   structure.inverse_mass = structure.inverse_mass.cwiseSign().cwiseQuotient(structure.mass);
   return structure;
 }
@@ -107,8 +107,8 @@ sim::Structure with_uneven_masses(sim::Structure structure, double spread, std::
 sim::State shaken_state(const sim::Structure& structure, double distance, double speed, std::uint64_t seed) {
   const Eigen::VectorXd free = structure.inverse_mass.cwiseSign();
   sim::State state = sim::rest_state(structure);
-  state.position += distance * free.asDiagonal() * sim::seeded_noise(structure.particles(), seed);
-  state.velocity = speed * free.asDiagonal() * sim::seeded_noise(structure.particles(), seed + 1);
+  state.position += distance * free.asDiagonal() * seeded_noise(structure.particles(), seed);
+  state.velocity = speed * free.asDiagonal() * seeded_noise(structure.particles(), seed + 1);
   return state;
 }
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "sim/state.h"
-#include "sim/structure.h"
+#include "sim/body/state.h"
+#include "sim/body/structure.h"
 
 namespace billow::test {
 

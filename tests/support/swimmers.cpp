@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "sim/muscle_force.h"
-#include "sim/water_force.h"
+#include "sim/force/muscle_force.h"
+#include "sim/force/water_force.h"
 
 namespace billow::test {
 
@@ -37,7 +37,8 @@ Swimmer::Swimmer(const sim::MotionOptions& motion, const sim::FishOptions& optio
     : structure(sim::build_fish(options)),
       forces(std::make_unique<sim::Forces>(structure, Eigen::Vector3d(Eigen::Vector3d::Zero()))) {
   forces->add(std::make_unique<sim::MuscleForce>(structure, 0, sim::FishMotion(motion)));
-  forces->add(std::make_unique<sim::WaterForce>(sim::Water{resistance, Eigen::Vector3d::Zero()}, sim::fish_faces(), 0));
+  forces->add(std::make_unique<sim::WaterForce>(structure, sim::Water{resistance, Eigen::Vector3d::Zero()},
+                                                sim::fish_faces(), 0));
 }
 
 sim::State Swimmer::at(double time, sim::SolverOptions options) const {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "sim/fish.h"
-#include "sim/fish_motion.h"
-#include "sim/forces.h"
-#include "sim/solver.h"
+#include "sim/body/fish.h"
+#include "sim/body/fish_motion.h"
+#include "sim/force/forces.h"
+#include "sim/step/solver.h"
 
 namespace billow::test {
 

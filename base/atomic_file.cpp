@@ -1,0 +1,79 @@
+// Temporary file, checked write, checked close, rename.
+#include "base/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+
+namespace billow {
+namespace {
+
+// Unique in this process and, with the process's number, on this machine.
+std::filesystem::path temporary_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return target.parent_path() / fmt::format(".{}.{}-{}.part", target.filename().string(), getpid(), counter++);
+}
+
+// Renaming over a device or a pipe would replace it with a file.
+void require_file_or_nothing(const std::filesystem::path& target) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw OutputError(fmt::format("cannot write {}: it exists and is not a file", target.string()));
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), temporary_(temporary_name(target)) {
+  require_file_or_nothing(target);
+  const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail();
+  stream_ = fdopen(descriptor, "wb");
+  if (!stream_) {
+    close(descriptor);
+    unlink(temporary_.c_str());
+    fail();
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (stream_) std::fclose(stream_);
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+bool AtomicFile::write(const void* bytes, std::size_t size) noexcept {
+  return std::fwrite(bytes, 1, size, stream_) == size;
+}
+
+void AtomicFile::commit() {
+  // A full disk may show only here: small files sit in the stream's buffer until it is closed.
+  std::FILE* stream = std::exchange(stream_, nullptr);
+  const bool flushed = std::fflush(stream) == 0;
+  const int flush_error = errno;
+  if (std::fclose(stream) != 0) fail();
+  if (!flushed) {
+    errno = flush_error;
+    fail();
+  }
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  temporary_.clear();
+}
+
+void AtomicFile::fail() const {
+  throw OutputError(fmt::format("cannot write {}: {}", target_.string(), std::strerror(errno)));
+}
+
+void write_file_atomically(const std::filesystem::path& file, const std::string& contents) {
+  AtomicFile output(file);
+  if (!output.write(contents.data(), contents.size())) output.fail();
+  output.commit();
+}
+
+}  // namespace billow

@@ -1,0 +1,36 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace billow {
+
+/// A temporary file beside `target` that takes its name on commit() and is removed without one. Only the temporary
+/// file is ever removed; a failure leaves what `target` was before. Every failure is an OutputError with the system's
+/// reason.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends `size` bytes; false, with errno set, when they cannot all be written.
+  bool write(const void* bytes, std::size_t size) noexcept;
+  /// Flushes, closes and renames.
+  void commit();
+  /// Throws OutputError for `target` with the reason that errno holds.
+  [[noreturn]] void fail() const;
+
+ private:
+  std::filesystem::path target_, temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+/// Writes any bytes whole or not at all. Throws OutputError.
+void write_file_atomically(const std::filesystem::path& file, const std::string& contents);
+
+}  // namespace billow

@@ -1,0 +1,105 @@
+// posix_spawn, with files in memory as its stdin and stderr, so that neither side can block on a pipe.
+#include "base/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+extern char** environ;
+
+namespace billow {
+
+namespace {
+
+/// A file without a name, in memory.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("billow", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "no file in memory can be made");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  void fill(const std::string& text) {
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t written = write(descriptor_, text.data() + done, text.size() - done);
+      if (written <= 0) throw std::system_error(errno, std::generic_category(), "a file in memory cannot be written");
+      done += static_cast<std::size_t>(written);
+    }
+    lseek(descriptor_, 0, SEEK_SET);
+  }
+
+  std::string text(std::size_t most) const {
+    std::string text(most, '\0');
+    const ssize_t size = pread(descriptor_, text.data(), most, 0);
+    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return text;
+  }
+
+ private:
+  int descriptor_;
+};
+
+// The child's process number; 0 when the program does not exist.
+pid_t spawn(const std::vector<std::string>& words, const MemoryFile& input, const MemoryFile& errors) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error == ENOENT) return 0;
+  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + words[0]);
+  return child;
+}
+
+// Its wait status; nothing when it had to be ended.
+bool wait_for(pid_t child, double seconds, int& status) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds) {
+  constexpr std::size_t most_errors = 64 << 10;
+  MemoryFile in, errors;
+  in.fill(input);
+  ProgramResult result;
+  const pid_t child = spawn(words, in, errors);
+  if (child == 0) {
+    result.found = false;
+    return result;
+  }
+  int status = 0;
+  result.timed_out = !wait_for(child, seconds, status);
+  result.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  result.errors = errors.text(most_errors);
+  return result;
+}
+
+}  // namespace billow

@@ -1,0 +1,228 @@
+// Arguments, commands, exit status.
+#include "cli/command/application.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "cli/command/commands.h"
+#include "cli/run/interrupt.h"
+#include "cli/text/command_text.h"
+#include "cli/text/version.h"
+
+namespace billow::cli {
+
+namespace {
+
+// "key.path=value"
+Override parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw CLI::ValidationError("-D", fmt::format("'{}' is not key.path=value", text));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+long parse_frame(std::string_view text, const std::string& whole) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1)
+    throw CLI::ValidationError("--frames", fmt::format("'{}' is not a range like 1-250", whole));
+  return value;
+}
+
+// "7" or "1-250"
+FrameRange parse_range(const std::string& text) {
+  const std::size_t dash = text.find('-');
+  const std::string_view view = text;
+  const long first = parse_frame(view.substr(0, dash), text);
+  const long last = dash == std::string::npos ? first : parse_frame(view.substr(dash + 1), text);
+  if (last < first) throw CLI::ValidationError("--frames", fmt::format("'{}' ends before it begins", text));
+  return {first, last};
+}
+
+/// What the arguments ask for: filled by CLI11, run afterwards.
+struct Request {
+  RenderOptions render;
+  SceneOptions scene;
+  StabilityOptions stability;
+  CompareOptions compare;
+  StudyOptions study;
+  std::vector<std::string> overrides;
+  std::string frames;
+  bool overwrite = false, resume = false;
+  std::function<int()> command;
+};
+
+void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request& request) {
+  command.add_option("SCENE", scene, "Scene file (YAML)")->required();
+  command.add_option("-D", request.overrides, "Set a scene value: -D solver.step=0.001 (repeatable)")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_render(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip, record and page");
+  add_scene_options(c, r.render.scene, r);
+  c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
+      ->type_name("DIR");
+  CLI::Option* frames =
+      c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 1-250 or 7")->type_name("A-B");
+  CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
+  c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")
+      ->excludes(overwrite)
+      ->excludes(frames);
+  c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  static const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::automatic},
+                                                              {"plain", ProgressStyle::plain},
+                                                              {"json", ProgressStyle::json},
+                                                              {"none", ProgressStyle::none}};
+  c.add_option("--progress", r.render.progress, "auto, plain, json or none")
+      ->transform(CLI::CheckedTransformer(styles))
+      ->type_name("STYLE");
+  c.final_callback([&r] {
+    for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
+    if (!r.frames.empty()) r.render.frames = parse_range(r.frames);
+    r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
+    r.command = [&r] { return render_command(r.render); };
+  });
+}
+
+void add_scene_command(CLI::App& app, Request& r, const std::string& name, const std::string& help, bool with_json,
+                       int (*command)(const SceneOptions&)) {
+  CLI::App& c = *app.add_subcommand(name, help);
+  add_scene_options(c, r.scene.scene, r);
+  if (with_json) c.add_flag("--json", r.scene.json, "Print JSON");
+  c.final_callback([&r, command] {
+    for (const std::string& text : r.overrides) r.scene.overrides.push_back(parse_override(text));
+    r.command = [&r, command] { return command(r.scene); };
+  });
+}
+
+void add_stability(CLI::App& app, Request& r) {
+  CLI::App& c =
+      *app.add_subcommand("stability", "Print k0 and every method's step limits, with and without the filter");
+  add_scene_options(c, r.stability.scene.scene, r);
+  c.add_flag("--json", r.stability.scene.json, "Print JSON");
+  c.add_flag("--measured", r.stability.measured, "Also measure the limits on whole non-linear runs (slow)");
+  c.add_option("--at", r.stability.time, "Linearise the state that the scene reaches at this time (default: at rest)")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("SECONDS");
+  c.final_callback([&r] {
+    if (!std::isfinite(r.stability.time)) throw CLI::ValidationError("--at", "needs a finite time");
+    for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
+    r.command = [&r] { return stability_command(r.stability); };
+  });
+}
+
+void add_compare(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
+  c.add_option("A", r.compare.a, "Image or folder")->required();
+  c.add_option("B", r.compare.b, "Image or folder")->required();
+  c.add_option("--diff", r.compare.difference, "Write the difference image")->type_name("FILE");
+  c.add_flag("--json", r.compare.json, "Print JSON");
+  c.final_callback([&r] { r.command = [&r] { return compare_command(r.compare); }; });
+}
+
+void add_study(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("study", "Run a scene over axes of variation; make pictures, tables and a page");
+  c.add_option("STUDY", r.study.study, "Study file (YAML)")->required();
+  c.add_option("-o,--output", r.study.output, "Folder to write to (default: out/ and the study's name)")
+      ->type_name("DIR");
+  CLI::Option* list = c.add_flag("--list", r.study.list, "Print the runs and whether they are finished");
+  CLI::Option* only =
+      c.add_option("--only", r.study.only, "Do this run alone")->check(CLI::Range(1, 1000000))->type_name("N");
+  CLI::Option* collect = c.add_flag("--collect", r.study.collect, "Assemble the finished runs, without running any");
+  CLI::Option* overwrite = c.add_flag("--overwrite", r.study.overwrite, "Run again what is finished");
+  list->excludes(only)->excludes(collect)->excludes(overwrite);
+  collect->excludes(only)->excludes(overwrite);
+  c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  c.final_callback([&r] { r.command = [&r] { return study_command(r.study); }; });
+}
+
+void add_commands(CLI::App& app, Request& r) {
+  app.set_version_flag("--version", fmt::format("billow {}", version()));
+  app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "Help of every command");
+  add_render(app, r);
+  add_scene_command(app, r, "check", "Validate a scene without simulating it; print it with every default", false,
+                    check_command);
+  add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
+  add_stability(app, r);
+  add_study(app, r);
+  add_compare(app, r);
+  app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
+    r.command = doctor_command;
+  });
+}
+
+std::string typed_command(int argc, char** argv) {
+  std::vector<std::string> words = {"billow"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  return command_line(words);
+}
+
+// CLI11 takes a misspelt command for a missing one.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  std::vector<std::string_view> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return std::nullopt;
+  return fmt::format("unknown command '{}'{}", argv[1], suggestion(argv[1], known, "commands are"));
+}
+
+int report(const char* message, int status) {
+  std::fputs((std::string(message) + "\n").c_str(), stderr);  // fputs: a closed stderr must not become another error
+  return status;
+}
+
+int run_command(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    return report(error.what(), exit_bad_input);
+  } catch (const DivergenceError& error) {
+    return report(error.what(), exit_diverged);
+  } catch (const OutputError& error) {
+    return report(error.what(), exit_not_written);
+  } catch (const std::system_error& error) {  // what fmt::print throws
+    return report(error.what(), exit_not_written);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", exit_internal_fault);
+  } catch (const std::exception& error) {
+    return report((std::string("internal fault: ") + error.what()).c_str(), exit_internal_fault);
+  }
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  ignore_write_signals();
+  CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
+  Request request;
+  add_commands(app, request);
+  if (const auto fault = unknown_command(app, argc, argv)) return report(fault->c_str(), exit_usage);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    app.exit(error);
+    return asked_for_help ? exit_done : exit_usage;
+  }
+  request.render.command = typed_command(argc, argv);
+  const int status = run_command(request.command);
+  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
+  return printed || status != exit_done ? status : report("the output could not be written", exit_not_written);
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,51 @@
+// The commands: each returns an exit status and throws what application.cpp turns into one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/render_scene.h"
+#include "cli/scene/scene.h"
+
+namespace billow::cli {
+
+int render_command(const RenderOptions& options);
+
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  bool json = false;
+};
+int check_command(const SceneOptions& options);
+int structure_command(const SceneOptions& options);
+
+struct StabilityOptions {
+  SceneOptions scene;
+  bool measured = false;  // also bisect on whole non-linear runs: slow
+  double time = 0.0;      // [s] linearise the state that the scene reaches then
+};
+int stability_command(const StabilityOptions& options);
+
+struct CompareOptions {
+  std::filesystem::path a, b;
+  std::filesystem::path difference;  // empty: none written
+  bool json = false;
+};
+int compare_command(const CompareOptions& options);
+
+struct StudyOptions {
+  std::filesystem::path study;
+  std::filesystem::path output;  // empty: out/ and the study's name
+  bool list = false;             // print the runs and do nothing
+  std::optional<int> only;       // this run alone, without assembling
+  bool collect = false;          // assemble what is there, without running
+  bool overwrite = false;        // run again what is finished
+  int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
+};
+int study_command(const StudyOptions& options);
+
+int doctor_command();
+
+}  // namespace billow::cli

@@ -1,4 +1,0 @@
-// The billow command-line tool.
-#include "cli/application.h"
-
-int main(int argc, char** argv) { return billow::cli::run(argc, argv); }

@@ -1,0 +1,41 @@
+// State -> surfaces.
+#include "cli/run/drawn_scene.h"
+
+namespace billow::cli {
+
+DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation) : scene_(scene), simulation_(simulation) {
+  for (const BodySpec& body : scene.bodies) skin_.push_back(skin_of(body));
+  if (scene.motes > 0) motes_.emplace(scene.motes, simulation.initial_state().position, scene.water.velocity);
+}
+
+std::vector<render::DrawnBody> DrawnScene::bodies() const {
+  std::vector<render::DrawnBody> drawn;
+  for (std::size_t b = 0; b < skin_.size(); ++b)
+    drawn.push_back({skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour});
+  if (motes_) drawn.push_back(motes_->drawn());
+  return drawn;
+}
+
+std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
+  std::vector<sim::SurfaceState> states;
+  const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
+  for (std::size_t b = 0; b < skin_.size(); ++b) {
+    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
+    states.back().position.rowwise() -= path;
+  }
+  if (motes_) states.push_back(motes_->at(state.time, path));
+  return states;
+}
+
+// How far the followed body's centre of mass has come [m].
+Eigen::Vector3d DrawnScene::camera_path(const sim::State& state) const {
+  if (!scene_.followed) return Eigen::Vector3d::Zero();
+  const sim::Structure& structure = simulation_.structure();
+  const sim::Body& body = structure.body[*scene_.followed];
+  const auto mass = structure.mass.segment(body.first_particle, body.particles);
+  const Eigen::MatrixX3d way =
+      (state.position - simulation_.initial_state().position).middleRows(body.first_particle, body.particles);
+  return way.transpose() * mass / mass.sum();
+}
+
+}  // namespace billow::cli

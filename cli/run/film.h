@@ -1,0 +1,71 @@
+// The film: simulation, drawing and PNG encoding, side by side.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/frame_log.h"
+#include "cli/run/output_folder.h"
+#include "cli/run/progress.h"
+#include "cli/run/run.h"
+#include "cli/run/run_series.h"
+#include "sim/step/schemes.h"
+
+namespace billow::cli {
+
+/// What one stage of a run took.
+struct StageCost {
+  double wall = 0.0;  // [s] at work, waiting for its queues left out; of all its threads together
+  double cpu = 0.0;   // [s] of the processor, by its own threads
+};
+
+/// Frames after which a run has all the memory that it needs, however long it is.
+constexpr long settled_frames = 100;
+
+/// What the process held in memory [KiB] after settled_frames (0 in a shorter film) and after the last frame.
+struct ResidentMemory {
+  long settled = 0, end = 0;
+};
+
+/// What a run needs to know of itself before its first frame.
+struct Survey {
+  render::RunBounds bounds;
+  StageCost cost;
+};
+
+struct FilmReport {
+  FrameLog frames;
+  RunSeries series = {};  // of the same frames
+  long frames_drawn = 0, images_written = 0, images_kept = 0;
+  int strip_columns = 0;
+  long steps = 0;
+  double simulated_time = 0.0;  // [s]
+  sim::SolveCounts solves = {};
+  double velocity_range = 0.0;  // [m/s]
+  std::string gl = {};
+  ResidentMemory memory = {};
+  StageCost simulate = {}, draw = {}, encode = {};
+  StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
+  int interrupted_by = 0;  // the signal that ended the run early, or 0
+  std::optional<std::string> divergence = {};  // the message, when the run diverged
+};
+
+/// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the
+/// largest root mean square of a component, so that one whipping corner does not grey out all else): the
+/// camera, the shadow and the velocity colours are then the same for every frame, whichever frames are drawn.
+/// A divergence ends the survey early without an error; the film then meets it too.
+Survey survey(const Run& run, Progress& progress);
+
+/// The least time [s] in which `cores` could have done the run's work: all of it, perfectly packed, or the chain that
+/// no packing can shorten: the survey, then the longer of the two stages that take one frame after another.
+double best_wall_seconds(const Survey& survey, const FilmReport& report, int cores);
+
+/// Draws the frames of `range` into `folder`, and what else the scene asks for. The simulation, the drawing and
+/// `threads` encoders overlap; queues between them are bounded. A divergence or a signal ends the film after the frames
+/// before it are written; any other error is thrown.
+FilmReport make_film(const Run& run, const render::RunBounds& bounds, const FrameRange& range,
+                     const OutputFolder& folder, int threads, Progress& progress);
+
+}  // namespace billow::cli

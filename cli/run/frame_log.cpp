@@ -1,0 +1,38 @@
+// Records as plain numbers, one after another.
+#include "cli/run/frame_log.h"
+
+#include <array>
+
+namespace billow::cli {
+
+namespace {
+
+using Row = std::array<double, 10>;  // whole numbers of frames are exact in a double up to 2^53
+
+Eigen::Vector3d vector_at(const Row& row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
+
+}  // namespace
+
+void FrameLog::add(const FrameRecord& record) {
+  const Eigen::Vector3d &p = record.linear_momentum, &l = record.angular_momentum;
+  const Row row{static_cast<double>(record.frame),
+                record.time,
+                record.kinetic,
+                record.potential,
+                p.x(),
+                p.y(),
+                p.z(),
+                l.x(),
+                l.y(),
+                l.z()};
+  spool_.append(row.data(), sizeof row);
+  ++size_;
+}
+
+FrameRecord FrameLog::at(long index) const {
+  Row row;
+  spool_.read(row.data(), sizeof row, static_cast<std::size_t>(index) * sizeof row);
+  return {static_cast<long>(row[0]), row[1], row[2], row[3], vector_at(row, 4), vector_at(row, 7)};
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,48 @@
+// Energy and momentum of every frame of a film, kept out of memory so that a film may have any length.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+
+#include "base/spool.h"
+
+namespace billow::cli {
+
+/// Energy and momentum at one frame.
+struct FrameRecord {
+  long frame = 0;
+  double time = 0.0;                                  // [s]
+  double kinetic = 0.0, potential = 0.0;              // [J]
+  Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
+};
+
+/// Records in the order in which they were added; iterate over it as over a vector. Throws OutputError.
+class FrameLog {
+ public:
+  /// Spools to the disk that `purpose` will lie on.
+  explicit FrameLog(const std::filesystem::path& purpose) : spool_(purpose) {}
+
+  void add(const FrameRecord& record);
+  long size() const { return size_; }
+  FrameRecord at(long index) const;
+
+  class Iterator {
+   public:
+    Iterator(const FrameLog& log, long index) : log_(&log), index_(index) {}
+    FrameRecord operator*() const { return log_->at(index_); }
+    Iterator& operator++() { return ++index_, *this; }
+    bool operator!=(const Iterator& other) const { return index_ != other.index_; }
+
+   private:
+    const FrameLog* log_;
+    long index_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
+
+ private:
+  Spool spool_;
+  long size_ = 0;
+};
+
+}  // namespace billow::cli

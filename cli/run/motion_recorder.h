@@ -1,0 +1,24 @@
+// Energy and momentum of every drawn frame.
+#pragma once
+
+#include "cli/run/recorder.h"
+#include "cli/run/schedule.h"
+
+namespace billow::cli {
+
+/// Into the report's frame log and its curves.
+class MotionRecorder : public Recorder {
+ public:
+  MotionRecorder(const RecorderSetting& setting, FilmReport& report);
+  double wants() const override { return frames_.next(); }
+  void add(double time, const sim::State& state) override;
+  void finish() override {}
+
+ private:
+  const Simulation& simulation_;
+  FrameRange range_;
+  Schedule frames_;
+  FilmReport& report_;
+};
+
+}  // namespace billow::cli

@@ -1,0 +1,19 @@
+// Which recorders a run has.
+#include "cli/run/recorder.h"
+
+#include "cli/run/motion_recorder.h"
+#include "cli/run/spectrum_recorder.h"
+#include "cli/run/strip_recorder.h"
+
+namespace billow::cli {
+
+std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& setting, FilmReport& report) {
+  const Scene& scene = setting.run.scene;
+  std::vector<std::unique_ptr<Recorder>> recorders;
+  recorders.push_back(std::make_unique<MotionRecorder>(setting, report));
+  if (scene.spectrum) recorders.push_back(std::make_unique<SpectrumRecorder>(setting));
+  if (scene.strip) recorders.push_back(std::make_unique<StripRecorder>(setting, report));
+  return recorders;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,37 @@
+// A scene's whole run: frames, strip, record and page.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/output_folder.h"
+#include "cli/run/progress.h"
+#include "cli/run/run.h"
+
+namespace billow::cli {
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  std::filesystem::path output;      // empty: out/ and the scene's name
+  std::optional<FrameRange> frames;  // none: all
+  Existing existing = Existing::refuse;
+  int threads = 0;  // 0: one per core
+  ProgressStyle progress = ProgressStyle::automatic;
+  std::string command;  // as it was typed, for run.json
+};
+
+/// Where the run's files go.
+std::filesystem::path output_of(const RenderOptions& options);
+/// Which frames are drawn. Throws InputError when the scene does not have them.
+FrameRange range_of(const RenderOptions& options, const Scene& scene);
+
+/// Runs a scene that has been read and whose step has been chosen; of options.scene only the name is used, .overrides
+/// not at all. Returns 0, or 128 + a signal that ended it. Throws DivergenceError once all that came before is written,
+/// InputError, OutputError.
+int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+                 const RenderOptions& options);
+
+}  // namespace billow::cli

@@ -1,0 +1,122 @@
+// A run's facts as text.
+#include "cli/run/run_facts.h"
+
+#include <fmt/format.h>
+
+#include "cli/run/output_folder.h"
+#include "cli/text/version.h"
+
+namespace billow::cli {
+
+namespace {
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+std::string filter_text(const Scene& scene) {
+  if (!scene.solver.filter) return "none";
+  const sim::FilterOptions& filter = *scene.solver.filter;
+  const std::string lambda =
+      scene.solver.lambda_expression.empty() ? fmt::format("{:.4g}", filter.lambda) : scene.solver.lambda_expression;
+  return fmt::format("{}, λ = {}{}, {}, of {}{}", word_of(filter.kernel), lambda,
+                     filter.lambda_keys.empty() ? "" : " (changing over time)", word_of(filter.form),
+                     sim::name(filter.target), filter.passes > 1 ? fmt::format(", {} passes", filter.passes) : "");
+}
+
+std::string summary(const Run& run) {
+  const sim::Structure& structure = run.simulation.structure();
+  return fmt::format("{} particles, {} springs; {} at {:.4g} s a step; filter: {}", structure.particles(),
+                     structure.springs(), sim::name(run.scene.solver.method), run.choice.step, filter_text(run.scene));
+}
+
+std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.4g} s", *limit) : "none"; }
+
+std::string limits_text(const StepChoice& choice) {
+  return fmt::format("paper {}, certified at rest {}, certified for any shape {}", limit_text(choice.paper),
+                     limit_text(choice.certified), limit_text(choice.any_shape));
+}
+
+std::string solves_text(const sim::SolveCounts& solves) {
+  return fmt::format("{}, {:.3g} iterations each, {} not converged", solves.solves,
+                     static_cast<double>(solves.iterations) / static_cast<double>(solves.solves), solves.failures);
+}
+
+std::string seconds_text(const Survey& survey, const FilmReport& report) {
+  return fmt::format(
+      "{:.1f} s: survey {:.1f}; then side by side simulate {:.1f}, draw {:.1f}, encode {:.1f} over all threads",
+      survey.cost.wall + report.total.wall, survey.cost.wall, report.simulate.wall, report.draw.wall,
+      report.encode.wall);
+}
+
+std::string images_text(const FilmReport& report) {
+  const std::string kept = report.images_kept ? fmt::format(", {} kept from an earlier run", report.images_kept) : "";
+  return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
+}
+
+Facts facts_of(const Run& run, const Survey& survey, const FilmReport& report) {
+  const Scene& scene = run.scene;
+  const StepChoice& choice = run.choice;
+  const sim::Structure& structure = run.simulation.structure();
+  Facts facts{{"Scene", fmt::format("{} (hash {})", scene.file.string(), scene.hash)},
+              {"Particles, springs", fmt::format("{}, {}", structure.particles(), structure.springs())},
+              {"Highest eigenvalue k0", fmt::format("{:.4g} /s²{}", choice.k0.value,
+                                                    choice.k0.converged ? "" : " (the power method did not settle)")}};
+  if (choice.filtered) facts.emplace_back("With the filter", fmt::format("{:.4g} /s²", choice.filtered->value));
+  facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
+                             {"Filter", filter_text(scene)},
+                             {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
+                             {"Step limits", limits_text(choice)},
+                             {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
+                                                       scene.duration, report.steps)}});
+  if (report.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.solves));
+  facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
+                             {"Images", images_text(report)},
+                             {"Time taken", seconds_text(survey, report)},
+                             {"Drawn by", report.gl},
+                             {"billow", std::string(version())}});
+  return facts;
+}
+
+// Why the run has fewer frames than it was asked for; empty where it has them all.
+std::string shortfall(const Scene& scene, const FilmReport& report) {
+  if (report.divergence) return "This run did not finish: " + *report.divergence + ".";
+  if (!report.interrupted_by) return "";
+  return fmt::format(
+      "This run was interrupted at {:.4g} s of {:.4g} s. Unless it drew a range of frames only, --resume "
+      "finishes it.",
+      report.simulated_time, scene.duration);
+}
+
+std::vector<PageNote> notes_of(const Scene& scene, const FilmReport& report, const std::vector<std::string>& warnings) {
+  std::vector<PageNote> notes;
+  if (const std::string why = shortfall(scene, report); !why.empty())
+    notes.push_back({true, why + (report.series.last_frame() == 0 ? "\nNo frame was drawn."
+                                                                  : "\nThe frames until then are below.")});
+  for (const std::string& warning : warnings) notes.push_back({false, "Warning: " + warning});
+  return notes;
+}
+
+}  // namespace
+
+RunPage describe_run(const Run& run, const Survey& survey, const FilmReport& report,
+                     const std::vector<std::string>& warnings) {
+  const Scene& scene = run.scene;
+  RunPage page;
+  page.title = scene.file.stem().string();
+  page.summary = summary(run);
+  page.notes = notes_of(scene, report, warnings);
+  for (const render::View view : scene.render.views) page.views.emplace_back(render::folder(view));
+  page.width = scene.render.width;
+  page.height = scene.render.height;
+  page.fps = scene.render.fps;
+  page.series = report.series;
+  page.strip_columns = report.strip_columns;
+  page.strip_step = scene.strip ? scene.strip->step : 0.0;
+  if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
+    page.spectrum_time = scene.spectrum->at;
+  page.facts = facts_of(run, survey, report);
+  page.command = run.command;
+  page.scene = scene.effective;
+  return page;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,162 @@
+// Filling cli/page/run.html and player.html.
+#include "cli/run/run_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/page/page_file.h"
+#include "cli/page/report_page.h"
+
+namespace billow::cli {
+
+namespace {
+
+/// The time axis that the slider, the strip and the plots share [s]: from the first frame to the last, or to the end of
+/// the strip, whichever comes later.
+struct TimeAxis {
+  double begin = 0.0, last = 0.0, end = 0.0;
+
+  explicit TimeAxis(const RunPage& page)
+      : begin(static_cast<double>(page.series.first_frame() - 1) / page.fps),
+        last(static_cast<double>(page.series.last_frame() - 1) / page.fps),
+        end(std::max(last, page.strip_columns * page.strip_step)) {
+    if (end <= begin) end = begin + 1.0 / page.fps;
+  }
+  double share(double time) const { return (time - begin) / (end - begin); }
+};
+
+// A picture to begin with: the frame of most motion. A drape's first frame shows only its edge.
+long start_frame(const RunPage& page) {
+  const std::vector<PlotPoint> kinetic = page.series.points(Quantity::kinetic);
+  const auto most = std::max_element(kinetic.begin(), kinetic.end(),
+                                     [](const PlotPoint& a, const PlotPoint& b) { return a.value < b.value; });
+  return std::clamp(std::lround(most->time * page.fps) + 1, page.series.first_frame(), page.series.last_frame());
+}
+
+int clock_decimals(const RunPage& page) { return page.fps > 100.0 ? 4 : 2; }
+
+std::string notes(const RunPage& page) {
+  std::string html;
+  for (const PageNote& note : page.notes)
+    html += fmt::format("<p class=\"note {}\">{}</p>\n", note.bad ? "bad" : "warn", html_escape(note.text));
+  return html;
+}
+
+std::string views(const RunPage& page, long frame) {
+  std::string html;
+  for (const std::string& view : page.views)
+    html += fmt::format(
+        "<figure class=\"view\"><img src=\"{0}/frame_{1:04}.png\" width=\"{2}\" height=\"{3}\" decoding=\"sync\" "
+        "alt=\"{0}, frame {1}\"><figcaption>{0}</figcaption></figure>\n",
+        html_escape(view), frame, page.width, page.height);
+  return html;
+}
+
+// The strip begins at time 0, the axis at the first frame: what lies before is cut off.
+std::string strip(const RunPage& page, const TimeAxis& axis) {
+  if (page.strip_columns == 0) return "";
+  return fmt::format(
+      "<div class=\"lane strip\"><span class=\"lane-name\">velocity strip</span><div class=\"seek\" "
+      "id=\"strip\"><img src=\"velocity_strip.png\" style=\"left: {:.4f}%; width: {:.4f}%\" "
+      "alt=\"velocity strip: time to the right, one row per particle\"><i class=\"cursor\"></i></div></div>\n",
+      100.0 * axis.share(0.0), 100.0 * page.strip_columns * page.strip_step / (axis.end - axis.begin));
+}
+
+std::string plots(const RunPage& page, const TimeAxis& axis) {
+  const auto line = [&](const char* name, const char* colour, Quantity quantity) {
+    return PlotLine{name, colour, page.series.points(quantity)};
+  };
+  using enum Quantity;
+  return line_plot({"Energy",
+                    "J",
+                    axis.begin,
+                    axis.end,
+                    {line("kinetic", "1", kinetic), line("potential", "2", potential), line("total", "3", total)},
+                    page.series.exact()}) +
+         line_plot({"Linear momentum",
+                    "kg m/s",
+                    axis.begin,
+                    axis.end,
+                    {line("x", "x", linear_x), line("y", "y", linear_y), line("z", "z", linear_z)},
+                    page.series.exact()}) +
+         line_plot({"Angular momentum",
+                    "kg m²/s, about the origin",
+                    axis.begin,
+                    axis.end,
+                    {line("x", "x", angular_x), line("y", "y", angular_y), line("z", "z", angular_z)},
+                    page.series.exact()});
+}
+
+std::string player(const RunPage& page) {
+  if (page.series.last_frame() == 0) return "";
+  const TimeAxis axis(page);
+  const long start = start_frame(page);
+  const double start_time = static_cast<double>(start - 1) / page.fps;
+  const nlohmann::ordered_json data = {{"first", page.series.first_frame()},
+                                       {"last", page.series.last_frame()},
+                                       {"start", start},
+                                       {"fps", page.fps},
+                                       {"begin", axis.begin},
+                                       {"end", axis.end},
+                                       {"views", page.views},
+                                       {"decimals", clock_decimals(page)}};
+  return fill_template(page_file("player.html"),
+                       {{"at", fmt::format("{:.5f}", axis.share(start_time))},
+                        {"views", views(page, start)},
+                        {"track_width", fmt::format("{:.4f}", 100.0 * axis.share(axis.last))},
+                        {"first", std::to_string(page.series.first_frame())},
+                        {"last", std::to_string(page.series.last_frame())},
+                        {"start", std::to_string(start)},
+                        {"strip", strip(page, axis)},
+                        {"ticks", time_labels(time_ticks(axis.begin, axis.end), axis.begin, axis.end)},
+                        {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start,
+                                              page.series.last_frame())},
+                        {"plots", plots(page, axis)},
+                        {"data", json_for_script(data.dump())}});
+}
+
+// One pixel a cell: enlarged without smoothing.
+std::string spectrum(const RunPage& page) {
+  if (page.spectrum_time < 0.0) return "";
+  return fmt::format(
+      "<section>\n<h2>Spectrum</h2>\n<div class=\"views pixels\">\n<figure class=\"view\"><img "
+      "src=\"velocity_image.png\" alt=\"the cloth's velocities as an image\"><figcaption>velocities at {:g} "
+      "s</figcaption></figure>\n<figure class=\"view\"><img src=\"velocity_spectrum.png\" alt=\"their "
+      "spectrum\"><figcaption>mean spectrum, zero frequency at the centre; <a href=\"spectrum.csv\">by radial "
+      "frequency</a></figcaption></figure>\n</div>\n</section>\n",
+      page.spectrum_time);
+}
+
+std::string facts(const RunPage& page) {
+  std::string html;
+  for (const auto& [name, value] : page.facts)
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escape(name), html_escape(value));
+  return html;
+}
+
+std::string files(const RunPage& page) {
+  std::string html = "<a href=\"run.json\">run.json</a> has every number";
+  if (page.strip_columns > 0)
+    html += ", <a href=\"velocity_strip.png\">velocity_strip.png</a> every particle in its own row of pixels";
+  return html + ".";
+}
+
+}  // namespace
+
+std::string run_page_html(const RunPage& page) {
+  const std::string body = fill_template(page_file("run.html"), {{"title", html_escape(page.title)},
+                                                                 {"summary", html_escape(page.summary)},
+                                                                 {"notes", notes(page)},
+                                                                 {"player", player(page)},
+                                                                 {"spectrum", spectrum(page)},
+                                                                 {"facts", facts(page)},
+                                                                 {"command", html_escape(page.command)},
+                                                                 {"scene", html_escape(page.scene)},
+                                                                 {"files", files(page)}});
+  return html_page(page.title + " – billow", body, {"run.js"});
+}
+
+}  // namespace billow::cli

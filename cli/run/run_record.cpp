@@ -1,0 +1,123 @@
+// Writing run.json.
+#include "cli/run/run_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/atomic_file.h"
+#include "cli/text/version.h"
+
+namespace billow::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json begun(const Scene& scene, const std::string& command, const char* status) {
+  return {{"billow", version()},
+          {"status", status},
+          {"command", command},
+          {"scene", {{"file", scene.file.string()}, {"hash", scene.hash}, {"effective", scene.effective}}}};
+}
+
+Json estimate(const sim::EigenvalueEstimate& e) {
+  return {{"value", e.value}, {"iterations", e.iterations}, {"converged", e.converged}};
+}
+
+Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json solver_record(const Scene& scene, const StepChoice& choice, const FilmReport& report) {
+  Json json = {{"method", sim::name(scene.solver.method)},
+               {"step", choice.step},
+               {"step_from", choice.bound},
+               {"limits",
+                {{"paper", optional(choice.paper)},
+                 {"certified", optional(choice.certified)},
+                 {"any_shape", optional(choice.any_shape)}}},
+               {"k0", estimate(choice.k0)}};
+  if (choice.filtered) json["filtered_eigenvalue"] = estimate(*choice.filtered);
+  json["steps"] = report.steps;
+  json["simulated_time"] = report.simulated_time;
+  json["linear_solves"] = {{"count", report.solves.solves},
+                           {"iterations", report.solves.iterations},
+                           {"not_converged", report.solves.failures}};
+  return json;
+}
+
+Json frame_record(const FrameRecord& f) {
+  const auto list = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  return {{"frame", f.frame},
+          {"time", f.time},
+          {"kinetic_energy", f.kinetic},
+          {"potential_energy", f.potential},
+          {"linear_momentum", list(f.linear_momentum)},
+          {"angular_momentum", list(f.angular_momentum)}};
+}
+
+// The stages' own threads, and what the least wall time on these cores would have been.
+Json processor_record(const Survey& survey, const FilmReport& report) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return {{"survey", survey.cost.cpu},
+          {"simulate", report.simulate.cpu},
+          {"draw", report.draw.cpu},
+          {"encode", report.encode.cpu},
+          {"total", survey.cost.cpu + report.total.cpu},
+          {"cores", cores},
+          {"best_wall", best_wall_seconds(survey, report, cores)}};
+}
+
+}  // namespace
+
+std::string begun_record(const Scene& scene, const std::string& command) {
+  return begun(scene, command, "running").dump(2) + "\n";
+}
+
+namespace {
+
+// Everything but the frames.
+Json finished(const Run& run, const Survey& survey, const FilmReport& report) {
+  const char* status = report.divergence ? "diverged" : report.interrupted_by ? "interrupted" : "done";
+  Json json = begun(run.scene, run.command, status);
+  if (report.divergence) json["divergence"] = *report.divergence;
+  json["particles"] = run.simulation.structure().particles();
+  json["springs"] = run.simulation.structure().springs();
+  json["solver"] = solver_record(run.scene, run.choice, report);
+  json["velocity_range"] = report.velocity_range;
+  json["images_written"] = report.images_written;
+  json["images_kept"] = report.images_kept;
+  json["strip_columns"] = report.strip_columns;
+  json["seconds"] = {{"survey", survey.cost.wall},
+                     {"simulate", report.simulate.wall},
+                     {"draw", report.draw.wall},
+                     {"encode", report.encode.wall},
+                     {"wall", survey.cost.wall + report.total.wall}};
+  json["processor_seconds"] = processor_record(survey, report);
+  json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
+  json["gl"] = report.gl;
+  return json;
+}
+
+void append(AtomicFile& file, std::string_view text) {
+  if (!file.write(text.data(), text.size())) file.fail();
+}
+
+}  // namespace
+
+// The frames go through memory one by one, so that a film's length does not show there.
+void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
+                           const FilmReport& report) {
+  AtomicFile output(file);
+  const std::string head = finished(run, survey, report).dump(1);
+  append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
+  append(output, ",\n \"frames\": [");
+  const char* separator = "\n  ";
+  for (const FrameRecord& frame : report.frames) {
+    append(output, separator + frame_record(frame).dump());
+    separator = ",\n  ";
+  }
+  append(output, "\n ]\n}\n");
+  output.commit();
+}
+
+}  // namespace billow::cli

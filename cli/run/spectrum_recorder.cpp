@@ -1,0 +1,42 @@
+// Particles -> cells -> spectrum -> files.
+#include "cli/run/spectrum_recorder.h"
+
+#include <fmt/format.h>
+
+#include "base/atomic_file.h"
+#include "render/image/png.h"
+
+namespace billow::cli {
+
+SpectrumRecorder::SpectrumRecorder(const RecorderSetting& setting)
+    : folder_(setting.folder),
+      velocity_range_(setting.velocity_range),
+      spec_(*setting.run.scene.spectrum),
+      samples_(spectrum_schedule(setting.run.scene, setting.range.last)),
+      image_(velocity_image_schedule(setting.run.scene, setting.range.last)),
+      first_particle_(setting.run.simulation.structure().body[spec_.body].first_particle),
+      grid_(sim::grid_sampling(setting.run.scene.bodies[spec_.body].mesh)) {}
+
+Eigen::MatrixX3d SpectrumRecorder::cells(const sim::State& state) const {
+  return grid_.sample(state.velocity.middleRows(first_particle_, grid_.weight.cols()));
+}
+
+void SpectrumRecorder::add(double time, const sim::State& state) {
+  if (samples_.take(time)) mean_.add(render::spectrum_of(cells(state), grid_.width, grid_.height, spec_.window));
+  if (image_.take(time)) shown_ = cells(state);
+}
+
+void SpectrumRecorder::finish() {
+  if (shown_)
+    render::write_png(folder_.file(RunFile::velocity_image),
+                      render::velocity_picture(*shown_, grid_.width, grid_.height, velocity_range_));
+  if (mean_.empty()) return;
+  const render::Spectrum mean = mean_.mean();
+  render::write_png(folder_.file(RunFile::spectrum), render::spectrum_picture(mean, spec_.range));
+  const Eigen::VectorXd radial = render::radial_power(mean);
+  std::string csv = "radial_frequency,mean_square_velocity\n";
+  for (Eigen::Index r = 0; r < radial.size(); ++r) csv += fmt::format("{},{}\n", r, radial(r));
+  write_file_atomically(folder_.file(RunFile::spectrum_table), csv);
+}
+
+}  // namespace billow::cli

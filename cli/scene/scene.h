@@ -1,0 +1,88 @@
+// A validated scene: what a scene file says once every key is checked, every mesh loaded and every pin found.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/scene/body_kind.h"
+#include "cli/yaml/yaml_overrides.h"
+#include "render/image/image.h"
+#include "render/image/settings.h"
+#include "render/image/spectrum.h"
+#include "sim/filter/filter.h"
+#include "sim/force/water_force.h"
+#include "sim/mesh/mesh.h"
+#include "sim/step/schemes.h"
+
+namespace billow::cli {
+
+/// Where the time step comes from: a number, the certified limit times `safety`, or the paper's criterion times
+/// `safety`.
+enum class StepRule { fixed, automatic, paper };
+
+struct SolverSpec {
+  sim::Method method = sim::Method::fb_euler;
+  sim::IntegratorOptions integrator;
+  StepRule step_rule = StepRule::automatic;
+  double step = 0.0;    // [s] for StepRule::fixed
+  double safety = 0.9;  // in (0, 1], for the other two rules
+  std::optional<sim::FilterOptions> filter;
+  std::string lambda_expression;  // lambda as a formula over the particles; empty: filter->lambda everywhere
+  std::string lambda_where;       // its place in the scene
+};
+
+/// One body of the scene, its mesh already imported.
+struct BodySpec {
+  std::string name;
+  std::filesystem::path mesh_file;  // empty: a fish without a drawn skin
+  std::string mesh_where;           // place of the mesh in the scene, for messages
+  sim::Mesh mesh;                   // where the body is, or what a fish is dressed in
+  BodyKind kind;
+  Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
+  std::filesystem::path texture_file;                          // empty: plain colour
+  render::Image texture;
+  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB
+};
+
+struct StripSpec {
+  double step = 0.01;  // [s] between columns
+  StripOrder order = StripOrder::zigzag;
+};
+
+/// The spatial spectrum of one cloth's velocities, and the image that it is taken of.
+struct SpectrumSpec {
+  double step = 0.1;    // [s] between the samples that the mean is made of
+  double at = 1.0;      // [s] of the velocity image that is shown
+  double range = 80.0;  // [dB] from white, the strongest, to black
+  render::Window window = render::Window::none;
+  int body = 0;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  double duration = 10.0;                    // [s] > 0
+  Eigen::Vector3d gravity{0.0, -9.81, 0.0};  // [m/s^2]
+  std::vector<BodySpec> bodies;
+  sim::Water water;             // around the fish
+  int motes = 0;                // drawn specks that drift in it
+  std::optional<int> followed;  // the body that the camera stays beside
+  SolverSpec solver;
+  render::Settings render;
+  std::optional<StripSpec> strip;
+  std::optional<SpectrumSpec> spectrum;
+  std::string effective;  // the whole scene with every default written out, as YAML that reads back to this scene
+  std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
+};
+
+/// Reads and fully checks a scene file: syntax, duplicate and unknown keys, types, finiteness, ranges, meshes,
+/// textures, pins. Relative paths are relative to the scene file. Throws InputError, its text starting with
+/// "file:line:column: " (or "-D key.path: "), on the first fault.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// All bodies of the scene as one structure, in order. Throws InputError located at the mesh of a body that makes no
+/// cloth or soft body.
+sim::Structure build_structure(const Scene& scene);
+
+}  // namespace billow::cli

@@ -1,0 +1,56 @@
+// bodies: in a scene: what every body has, whatever its kind.
+#include <fmt/format.h>
+
+#include "cli/scene/scene_keys.h"
+#include "cli/scene/scene_parts.h"
+#include "cli/yaml/colour_text.h"
+
+namespace billow::cli {
+namespace {
+
+constexpr std::size_t max_name_length = 64;
+
+// A name must be usable in -D paths, where an index can stand in its place.
+void check_name(const std::string& name, const std::string& where) {
+  const bool digits_only = name.find_first_not_of("0123456789") == std::string::npos;
+  const bool awkward = name.find_first_of(". \t\r\n=/\\") != std::string::npos;
+  if (digits_only || awkward || name.size() > max_name_length)
+    fail_at(where, fmt::format("the name '{}' will not do: up to {} characters, no blanks, none of . = / \\, "
+                               "and not digits alone",
+                               name.substr(0, max_name_length), max_name_length));
+}
+
+// A body without any of the kinds misses the commonest.
+const BodyKindRow& kind_of(const MapReader& body) {
+  const BodyKindRow* kind = nullptr;
+  for (const BodyKindRow& row : body_kinds) {
+    if (!body.find(row.key)) continue;
+    if (kind)
+      fail_at(
+          body.where(row.key),
+          fmt::format("a body is of one kind, and this one has '{}' and '{}'; make it two bodies", kind->key, row.key));
+    kind = &row;
+  }
+  return kind ? *kind : body_kinds[0];
+}
+
+void read_texture(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
+  const std::string texture = body.text("texture", "none");
+  draft.texture_where = body.where("texture");
+  if (texture != "none") draft.spec.texture_file = folder / texture;
+}
+
+}  // namespace
+
+BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record) {
+  MapReader map(node, keys::section("bodies[]"), record);
+  BodyDraft draft;
+  draft.spec.name = map.text("name", fmt::format("body_{}", index));
+  check_name(draft.spec.name, map.where("name"));
+  kind_of(map).read(map, folder, draft);
+  read_texture(map, folder, draft);
+  draft.spec.colour = read_colour(map, "colour", draft.spec.colour);
+  return draft;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,215 @@
+// Every key that a scene may have, with the numbers and words it accepts. Upper bounds are there to catch slips such as
+// grams for kilograms, or a frame that no memory holds; they are far beyond any cloth.
+#include "cli/scene/scene_keys.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "cli/scene/scene.h"
+#include "sim/mesh/selection.h"
+
+namespace billow::cli::keys {
+namespace {
+
+constexpr Range at_least_0(double max, std::string_view unit = {}) { return {0.0, max, false, unit}; }
+constexpr Range above_0(double max, std::string_view unit = {}) { return {0.0, max, true, unit}; }
+constexpr Range within(double bound, std::string_view unit = {}) { return {-bound, bound, false, unit}; }
+constexpr Range between(double min, double max, std::string_view unit = {}) { return {min, max, false, unit}; }
+
+const Section scene{"the scene",
+                    {{"billow"},
+                     {"duration", above_0(1e5, "s")},
+                     {"gravity", within(1e4, "m/s²")},
+                     {"bodies"},
+                     {"water"},
+                     {"solver"},
+                     {"render"},
+                     {"strip", {}, {"none"}},
+                     {"spectrum", {}, {"none"}}}};
+
+// With a key for each kind of body.
+std::vector<Key> body_keys() {
+  std::vector<Key> keys = {{"name"}};
+  for (const BodyKindRow& kind : body_kinds) keys.push_back({kind.key});
+  keys.insert(keys.end(), {{"texture", {}, {"none"}}, {"colour", between(0, 1)}});
+  return keys;
+}
+
+const Section body{"body", body_keys()};
+
+const Section cloth{"cloth",
+                    {{"mesh"},
+                     {"transform"},
+                     {"mass", above_0(1e6, "kg")},
+                     {"mass_distribution", {}, {"area", "uniform"}},
+                     {"model", {}, all_words<sim::SpringModel>()},
+                     {"stiffness"},
+                     {"buckling_rigidity", at_least_0(1e6, "N m²")},
+                     {"damping"},
+                     {"velocity", within(1e4, "m/s")},
+                     {"pins"}}};
+
+const Section stiffness{"stiffness",
+                        {{"structural", above_0(1e12, "N/m")},
+                         {"shear", at_least_0(1e12, "N/m")},
+                         {"bend", at_least_0(1e12, "N/m")},
+                         {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
+
+const Section damping{"damping",
+                      {{"model", {}, all_words<sim::DampingModel>()},
+                       {"coefficient", at_least_0(1e9, "N s/m")},
+                       {"friction", at_least_0(1e9, "kg/s")}}};
+
+const Section pin{
+    "pin",
+    {{"corner", {}, all_words<sim::Corner>()}, {"vertices", at_least_0(1e9)}, {"box", within(1e6, "m")}, {"group"}}};
+
+const Section transform{
+    "transform", {{"scale", above_0(1e6)}, {"rotate", within(3600, "degrees")}, {"translate", within(1e6, "m")}}};
+
+const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600, "degrees")}}};
+
+const Section soft{"soft",
+                   {{"mesh"},
+                    {"transform"},
+                    {"mass", above_0(1e6, "kg")},
+                    {"mass_distribution", {}, {"area", "uniform"}},
+                    {"stiffness"},
+                    {"variation"},
+                    {"damping"},
+                    {"velocity", within(1e4, "m/s")},
+                    {"pins"}}};
+
+const Section soft_stiffness{"stiffness",
+                             {{"structural", above_0(1e12, "N/m")},
+                              {"shear", at_least_0(1e12, "N/m")},
+                              {"bend", at_least_0(1e12, "N/m")},
+                              {"interior", above_0(1e12, "N/m")},
+                              {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
+
+const Section variation{"variation", {{"stiffness"}, {"mass"}}};
+
+const Section fish{"fish",
+                   {{"skin"},
+                    {"length", above_0(1e4, "m")},
+                    {"mass"},
+                    {"stiffness"},
+                    {"viscosity", at_least_0(1e9, "N s/m")},
+                    {"position", within(1e6, "m")},
+                    {"heading", within(3600, "degrees")},
+                    {"velocity", within(1e4, "m/s")},
+                    {"buoyancy", between(0, 10)},
+                    {"motion"}}};
+
+const Section fish_mass{
+    "mass", {{"snout", above_0(1e9, "kg")}, {"rings", above_0(1e9, "kg")}, {"tail_tip", above_0(1e9, "kg")}}};
+
+const Section fish_stiffness{
+    "stiffness", {{"cross", above_0(1e12, "N/m")}, {"normal", above_0(1e12, "N/m")}, {"muscle", above_0(1e12, "N/m")}}};
+
+const Section motion{"motion",
+                     {{"keys"},
+                      {"transition", at_least_0(1e5, "s")},
+                      {"lag", within(3600, "degrees")},
+                      {"phase", within(3600, "degrees")}}};
+
+const Section motion_key{"the key",
+                         {{"time", between(0, 1e5, "s")},
+                          {"swim", between(0, 1)},
+                          {"turn", between(-1, 1)},
+                          {"frequency", above_0(1e3, "1/s")}}};
+
+const Section water{
+    "water",
+    {{"resistance", at_least_0(1e9, "kg/(m² s)")}, {"current", within(1e4, "m/s")}, {"motes", between(0, 10000)}}};
+
+const Section solver{"solver",
+                     {{"method", {}, all_words<sim::Method>()},
+                      {"step", above_0(1e5, "s"), {"auto", "paper"}},
+                      {"safety", {0.0, 1.0, true}},
+                      {"linear_solver", {}, all_words<sim::LinearSolver>()},
+                      {"tolerance", {0.0, 0.5, true}},
+                      {"max_iterations", between(1, 1e6)},
+                      {"filter", {}, {"none"}}}};
+
+const Section filter{"filter",
+                     {{"kernel", {}, all_words<sim::FilterKernel>()},
+                      {"lambda", above_0(1e3, "per mean rest length")},
+                      {"lambda_keys", between(0, 1e5)},
+                      {"form", {}, all_words<sim::FilterForm>()},
+                      {"target", {}, all_words<sim::FilterTarget>()},
+                      {"neighbours", {}, all_words<sim::FilterNeighbours>()},
+                      {"radius", above_0(100, "mean rest lengths")},
+                      {"distances", {}, all_words<sim::FilterDistances>()},
+                      {"passes", between(1, 100)}}};
+
+const Section render{"render",
+                     {{"size", between(16, 8192, "pixels")},
+                      {"fps", above_0(1e4, "frames per second")},
+                      {"samples", {}, {"1", "2", "4", "8", "16"}},
+                      {"views", {}, all_words<render::View>()},
+                      {"camera", {}, {"fit"}},
+                      {"ground", within(1e6, "m"), {"true", "false"}},
+                      {"velocity_colour", {}, all_words<render::VelocityColour>()},
+                      {"velocity_range", above_0(1e6, "m/s"), {"auto"}},
+                      {"legend"},
+                      {"background", between(0, 1)}}};
+
+const Section camera{"camera",
+                     {{"eye", within(1e6, "m"), {"fit"}},
+                      {"look_at", within(1e6, "m"), {"fit"}},
+                      {"fov", between(1, 170, "degrees")},
+                      {"follow"}}};
+
+const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
+
+const Section strip{"strip", {{"step", above_0(1e5, "s")}, {"order", {}, all_words<StripOrder>()}}};
+
+const Section spectrum{"spectrum",
+                       {{"step", above_0(1e5, "s")},
+                        {"at", at_least_0(1e5, "s")},
+                        {"range", between(10, 300, "dB")},
+                        {"window", {}, all_words<render::Window>()},
+                        {"body"}}};
+
+}  // namespace
+
+const std::vector<PlacedSection>& all() {
+  static const std::vector<PlacedSection> sections{{"", &scene},
+                                                   {"bodies[]", &body},
+                                                   {"bodies[].cloth", &cloth},
+                                                   {"bodies[].cloth.transform", &transform},
+                                                   {"bodies[].cloth.transform.rotate", &axis_angle},
+                                                   {"bodies[].cloth.stiffness", &stiffness},
+                                                   {"bodies[].cloth.damping", &damping},
+                                                   {"bodies[].cloth.pins[]", &pin},
+                                                   {"bodies[].soft", &soft},
+                                                   {"bodies[].soft.transform", &transform},
+                                                   {"bodies[].soft.transform.rotate", &axis_angle},
+                                                   {"bodies[].soft.stiffness", &soft_stiffness},
+                                                   {"bodies[].soft.variation", &variation},
+                                                   {"bodies[].soft.damping", &damping},
+                                                   {"bodies[].soft.pins[]", &pin},
+                                                   {"bodies[].fish", &fish},
+                                                   {"bodies[].fish.mass", &fish_mass},
+                                                   {"bodies[].fish.stiffness", &fish_stiffness},
+                                                   {"bodies[].fish.motion", &motion},
+                                                   {"bodies[].fish.motion.keys[]", &motion_key},
+                                                   {"water", &water},
+                                                   {"solver", &solver},
+                                                   {"solver.filter", &filter},
+                                                   {"render", &render},
+                                                   {"render.camera", &camera},
+                                                   {"render.background", &background},
+                                                   {"strip", &strip},
+                                                   {"spectrum", &spectrum}};
+  return sections;
+}
+
+const Section& section(std::string_view path) {
+  const auto found = std::find_if(all().begin(), all().end(), [&](const PlacedSection& s) { return s.path == path; });
+  if (found == all().end()) throw std::logic_error("no section of keys stands at " + std::string(path));
+  return *found->section;
+}
+
+}  // namespace billow::cli::keys

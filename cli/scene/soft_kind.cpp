@@ -1,0 +1,64 @@
+// soft: in a body.
+#include <fmt/format.h>
+
+#include "cli/scene/mesh_body.h"
+#include "cli/scene/particle_expression.h"
+
+namespace billow::cli {
+
+namespace {
+
+void read_stiffness(KindMap& kind, SoftSpec& soft) {
+  MapReader map = kind.submap("stiffness");
+  read_surface_springs(map, soft.options.surface);
+  soft.options.interior = map.number("interior", soft.options.interior);
+  soft.max_eigenvalue = map.number_or_word("max_eigenvalue");
+}
+
+FormulaDraft read_formula(MapReader& map, std::string_view key) {
+  return {map.text(key, FormulaDraft{}.text), map.where(key)};
+}
+
+// Positive factors (v), one per vertex; none for the constant 1.
+Eigen::VectorXd factors(const sim::Mesh& mesh, const FormulaDraft& formula, std::string_view name) {
+  if (formula.text == FormulaDraft{}.text) return {};
+  const Eigen::VectorXd value =
+      located(formula.where, [&] { return evaluate_at_particles(formula.text, mesh.position, mesh); });
+  for (Eigen::Index v = 0; v < value.size(); ++v)
+    if (!(value(v) > 0.0))
+      fail_at(formula.where,
+              fmt::format("{} must be above 0 everywhere; at vertex {} ({:.4g}, {:.4g}, {:.4g}) it is "
+                          "{:.4g}",
+                          name, v, mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2), value(v)));
+  return value;
+}
+
+}  // namespace
+
+void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
+  KindMap kind = kind_map(body, "soft");
+  SoftSpec soft;
+  soft.options.surface.name = draft.spec.name;
+  read_mesh(kind, folder, draft);
+  read_mass(kind, soft.options.surface);
+  read_stiffness(kind, soft);
+  MapReader variation = kind.submap("variation");
+  draft.stiffness_factor = read_formula(variation, "stiffness");
+  draft.mass_factor = read_formula(variation, "mass");
+  read_damping(kind, soft.options.surface);
+  read_start(kind, draft);
+  draft.spec.kind = std::move(soft);
+}
+
+void SoftSpec::place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body) {
+  body.mesh = placed(mesh, draft);
+  options.surface.pinned = pinned_vertices(body.mesh, draft);
+  options.stiffness_factor = factors(body.mesh, draft.stiffness_factor, "the variation of stiffness");
+  options.mass_factor = factors(body.mesh, draft.mass_factor, "the variation of mass");
+}
+
+sim::Structure SoftSpec::build(const BodySpec& body) const {
+  return scaled(sim::build_soft_body(body.mesh, options), *this);
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,85 @@
+// A validated study: a base scene, axes of variation, what to measure, and what to make of the runs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/words.h"
+#include "cli/yaml/yaml_overrides.h"
+
+namespace billow::cli {
+
+/// One value of an axis: how tables and legends call it, and what it changes in the base scene.
+struct AxisValue {
+  std::string label;
+  std::vector<Override> changes;
+};
+
+struct Axis {
+  std::string name;
+  std::vector<AxisValue> values;  // at least one
+};
+
+/// What every run does.
+struct Measures {
+  bool render = true;     // what `billow render` writes: frames, strip, spectrum, page
+  bool measured = false;  // bisect for the largest step at which the whole run behaves
+  int repeats = 0;        // times to run without rendering, by the clock; 0: none
+};
+
+/// Which runs a picture shows: for the named axes, the indices of the values it takes.
+struct Selection {
+  int axis = 0;
+  std::vector<int> values;
+};
+
+enum class PictureKind { strips, spectra, frames, plot, spectrum_curves };
+Words<PictureKind> words(PictureKind);
+
+/// One picture made of the finished runs.
+struct PictureSpec {
+  PictureKind kind = PictureKind::plot;
+  std::string name;  // of its files
+  std::string title, note;
+  std::vector<Selection> where;
+  std::optional<int> rows;         // axis: one strip, one column of spectra, or one row of frames per value
+  std::vector<double> times;       // [s] of the frames shown
+  std::vector<std::string> views;  // of frames
+  std::string x;                   // column of the results
+  std::vector<std::string> y;      // columns; several make several curves
+  std::vector<int> by;             // axes: a curve for every combination of their values
+  std::string x_label, y_label;
+  bool log_x = false, log_y = false;
+};
+
+struct Study {
+  std::filesystem::path file, scene;
+  std::string title, about;
+  std::vector<Override> base;  // `set`: for every run, before what the axes change
+  std::vector<Axis> axes;
+  Measures measures;
+  std::vector<PictureSpec> pictures;
+};
+
+/// One combination of the axes' values. Runs are numbered from 1, the last axis varying fastest.
+struct StudyRun {
+  int number = 0;
+  std::vector<int> choice;  // per axis, the index of its value
+};
+
+/// Reads and checks a study file; the scenes of its runs are checked when they are read.
+/// Throws InputError "FILE:LINE:COLUMN: …".
+Study read_study(const std::filesystem::path& file);
+
+std::vector<StudyRun> runs_of(const Study& study);
+/// What a run changes in the base scene, in order.
+std::vector<Override> overrides_of(const Study& study, const StudyRun& run);
+/// "fb_euler, λ = 1": the labels of the run's values.
+std::string label_of(const Study& study, const StudyRun& run);
+/// True when the run is among those that a picture shows.
+bool selects(const PictureSpec& picture, const StudyRun& run);
+
+}  // namespace billow::cli

@@ -1,0 +1,328 @@
+// Runs -> sheets and plots.
+#include "cli/study/study_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "base/error.h"
+#include "cli/text/number_text.h"
+#include "render/image/png.h"
+#include "render/paper/plot.h"
+#include "render/paper/sheet.h"
+
+namespace billow::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int strip_width = 1200, strip_height = 260;
+constexpr int spectrum_side = 300;
+constexpr int thumbnail_width = 300;
+
+/// A run that a picture shows, with what is on disk of it.
+struct Shown {
+  const StudyRun* run = nullptr;
+  const RunResult* result = nullptr;
+  fs::path film;
+  std::string label;  // by the axis of the picture's rows, or of all axes
+};
+
+std::vector<Shown> shown_runs(const StudyContents& contents, const PictureSpec& picture) {
+  std::vector<Shown> shown;
+  for (std::size_t r = 0; r < contents.runs.size(); ++r) {
+    const StudyRun& run = contents.runs[r];
+    if (!selects(picture, run)) continue;
+    const std::string label = picture.rows ? contents.study.axes[*picture.rows].values[run.choice[*picture.rows]].label
+                              : contents.runs.size() == 1 ? ""
+                                                          : label_of(contents.study, run);
+    shown.push_back({&run, &contents.results[r], run_folder(contents.folder, contents.study, run) / "film", label});
+  }
+  return shown;
+}
+
+// Only runs that left something to show; a diverged one left what came before.
+std::vector<Shown> rendered_runs(const StudyContents& contents, const PictureSpec& picture) {
+  std::vector<Shown> shown = shown_runs(contents, picture);
+  std::erase_if(shown, [](const Shown& run) {
+    return run.result->status == RunStatus::missing || run.result->status == RunStatus::failed;
+  });
+  for (Shown& run : shown)
+    if (run.result->status == RunStatus::diverged) run.label += " (diverged)";
+  return shown;
+}
+
+nlohmann::json record_of_run(const Shown& run) {
+  std::ifstream file(run.film / "run.json");
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object())
+    throw OutputError(
+        fmt::format("{} is missing or damaged; run the study with --overwrite", (run.film / "run.json").string()));
+  return json;
+}
+
+/// The rendered frames of a run and their times.
+std::vector<std::pair<long, double>> frames_of(const Shown& run) {
+  std::vector<std::pair<long, double>> frames;
+  const nlohmann::json record = record_of_run(run);
+  for (const auto& frame : record.at("frames"))
+    frames.emplace_back(frame.at("frame").get<long>(), frame.at("time").get<double>());
+  return frames;
+}
+
+// The frame nearest to `time`; nothing when the run ended before.
+std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long, double>>& frames, double time) {
+  if (frames.empty()) return std::nullopt;
+  const auto nearest = std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.second - time) < std::abs(b.second - time);
+  });
+  const double interval = frames.size() > 1 ? frames[1].second - frames[0].second : 1.0;
+  if (std::abs(nearest->second - time) > interval) return std::nullopt;
+  return *nearest;
+}
+
+render::Panel frame_panel(const Shown& run, const std::string& view, long frame, int width) {
+  render::Panel panel{render::read_png(run.film / view / fmt::format("frame_{:04}.png", frame)), width, 0, true, ""};
+  panel.height = std::max(1, panel.image.height * width / std::max(1, panel.image.width));
+  return panel;
+}
+
+std::string lettered(std::size_t index, const std::string& label) {
+  return fmt::format("({}) {}", static_cast<char>('a' + index % 26), label);
+}
+
+[[noreturn]] void fail_for(const std::string& reason) { throw InputError(fmt::format("it {}", reason)); }
+
+// A strip ends with its scene, or where the run diverged.
+double strip_duration(const Shown& run) {
+  const double duration = run.result->value("duration").value_or(0.0);
+  if (run.result->status == RunStatus::done) return duration;
+  return std::min(duration, record_of_run(run).at("solver").at("simulated_time").get<double>());
+}
+
+// One strip above the other on one time axis; below them the first run's frames, each beginning at its time.
+render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& picture, double duration) {
+  render::Sheet sheet{picture.title, picture.note, {}, 0.0, duration, strip_width, {}};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const fs::path file = runs[r].film / "velocity_strip.png";
+    std::error_code error;
+    if (!fs::exists(file, error)) fail_for("needs a strip; give the scene one with 'strip: {}'");
+    const double share = strip_duration(runs[r]) / duration;
+    const int width = std::max(1, static_cast<int>(std::lround(share * strip_width)));
+    sheet.rows.push_back(
+        {lettered(r, runs[r].label), {{render::read_png(file), width, strip_height, true, ""}}, {}, false});
+  }
+  sheet.rows.back().axis_below = true;
+  render::SheetRow frames{lettered(runs.size(), "frames of " + runs.front().label), {}, {}, false};
+  if (runs.front().label.empty()) frames.label.clear();
+  const int width = std::max(40, strip_width / static_cast<int>(std::max<std::size_t>(1, picture.times.size())) - 6);
+  const auto recorded = frames_of(runs.front());
+  for (const double time : picture.times)
+    if (const auto frame = frame_at(recorded, time)) {
+      frames.panels.push_back(frame_panel(runs.front(), picture.views.front(), frame->first, width));
+      frames.times.push_back(frame->second);
+    }
+  sheet.rows.push_back(std::move(frames));
+  return sheet;
+}
+
+render::Sheet spectra_sheet(const std::vector<Shown>& runs, const PictureSpec& picture) {
+  render::Sheet sheet{picture.title, picture.note, {}, 0.0, 0.0, 0, {}};
+  render::SheetRow above{"", {}, {}, false}, below = above;
+  for (const Shown& run : runs) {
+    std::error_code error;
+    if (!fs::exists(run.film / "velocity_spectrum.png", error))
+      fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
+    sheet.columns.push_back(run.label);
+    above.panels.push_back(
+        {render::read_png(run.film / "velocity_image.png"), spectrum_side, spectrum_side, false, ""});
+    below.panels.push_back(
+        {render::read_png(run.film / "velocity_spectrum.png"), spectrum_side, spectrum_side, false, ""});
+  }
+  sheet.rows = {std::move(above), std::move(below)};
+  return sheet;
+}
+
+// Frames of one run in rows of a handful, all of its views at each time side by side.
+void add_film(render::Sheet& sheet, const Shown& run, const PictureSpec& picture, std::size_t times_a_row) {
+  const auto recorded = frames_of(run);
+  render::SheetRow row{run.label, {}, {}, false};
+  for (const double time : picture.times) {
+    const auto frame = frame_at(recorded, time);
+    if (!frame) continue;
+    if (row.panels.size() >= times_a_row * picture.views.size()) {
+      sheet.rows.push_back(std::move(row));
+      row = {"", {}, {}, false};
+    }
+    for (const std::string& view : picture.views)
+      row.panels.push_back(frame_panel(run, view, frame->first, thumbnail_width));
+    row.panels[row.panels.size() - picture.views.size()].caption = fmt::format("{:.2f} s", frame->second);
+  }
+  sheet.rows.push_back(std::move(row));
+}
+
+render::Sheet frames_sheet(const std::vector<Shown>& runs, const PictureSpec& picture) {
+  render::Sheet sheet{picture.title, picture.note, {}, 0.0, 0.0, 0, {}};
+  const std::size_t times_a_row =
+      runs.size() > 1 ? picture.times.size() : std::max<std::size_t>(1, 4 / picture.views.size());
+  for (const Shown& run : runs) add_film(sheet, run, picture, times_a_row);
+  return sheet;
+}
+
+/// Curves in the order in which their first points come.
+class Curves {
+ public:
+  void add(const std::string& name, double x, double y) {
+    const auto [place, fresh] = place_.try_emplace(name, curves_.size());
+    if (fresh) curves_.push_back({name, {}, {}});
+    curves_[place->second].x.push_back(x);
+    curves_[place->second].y.push_back(y);
+  }
+
+  // Points by ascending x, whatever the order of the runs.
+  std::vector<render::Curve> sorted() const {
+    std::vector<render::Curve> sorted;
+    for (const render::Curve& curve : curves_) {
+      std::vector<std::pair<double, double>> points;
+      for (std::size_t k = 0; k < curve.x.size(); ++k) points.emplace_back(curve.x[k], curve.y[k]);
+      std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      sorted.push_back({curve.name, {}, {}});
+      for (const auto& [x, y] : points) sorted.back().x.push_back(x), sorted.back().y.push_back(y);
+    }
+    return sorted;
+  }
+
+ private:
+  std::map<std::string, std::size_t> place_;
+  std::vector<render::Curve> curves_;
+};
+
+std::string by_label(const Study& study, const PictureSpec& picture, const StudyRun& run) {
+  std::vector<std::string> labels;
+  for (const int axis : picture.by) labels.push_back(study.axes[axis].values[run.choice[axis]].label);
+  return fmt::format("{}", fmt::join(labels, ", "));
+}
+
+// A column's value, or the number that an axis gives.
+std::optional<double> value_in(const Study& study, const Shown& shown, const std::string& column) {
+  if (find_column(column)) return shown.result->value(column);
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (study.axes[a].name == column) {
+      const ParsedNumber number = parse_number(study.axes[a].values[shown.run->choice[a]].label);
+      if (number.fault == NumberFault::none) return number.value;
+    }
+  return std::nullopt;
+}
+
+std::string column_label(const std::string& name) {
+  const ResultColumn* column = find_column(name);
+  if (!column) return name;
+  return std::string(column->label) + (column->unit.empty() ? "" : fmt::format(" [{}]", column->unit));
+}
+
+std::string curve_name(const PictureSpec& picture, const std::string& y, const std::string& by) {
+  if (picture.y.size() < 2) return by.empty() ? column_label(y) : by;
+  const ResultColumn* column = find_column(y);
+  const std::string label = column ? std::string(column->label) : y;
+  return by.empty() ? label : by + ": " + label;
+}
+
+// A diverged run took no step to its end, so its times and limits would mislead.
+render::Plot value_plot(const StudyContents& contents, const PictureSpec& picture) {
+  Curves curves;
+  for (const std::string& y : picture.y)
+    for (const Shown& shown : shown_runs(contents, picture)) {
+      if (shown.result->status != RunStatus::done) continue;
+      const std::optional<double> x = value_in(contents.study, shown, picture.x);
+      const std::optional<double> value = value_in(contents.study, shown, y);
+      if (x && value) curves.add(curve_name(picture, y, by_label(contents.study, picture, *shown.run)), *x, *value);
+    }
+  return {picture.title,
+          picture.x_label.empty() ? column_label(picture.x) : picture.x_label,
+          picture.y_label.empty() ? column_label(picture.y.front()) : picture.y_label,
+          picture.log_x,
+          picture.log_y,
+          true,
+          curves.sorted()};
+}
+
+// The rows of a run's spectrum.csv, after its heading.
+std::vector<std::pair<double, double>> spectrum_of_run(const Shown& run) {
+  std::ifstream file(run.film / "spectrum.csv");
+  if (!file) fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
+  std::vector<std::pair<double, double>> points;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    const std::size_t comma = std::min(line.find(','), line.size() - 1);
+    points.emplace_back(parse_number(line.substr(0, comma)).value, parse_number(line.substr(comma + 1)).value);
+  }
+  return points;
+}
+
+render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& picture) {
+  Curves curves;
+  for (const Shown& run : rendered_runs(contents, picture)) {
+    const std::string by = by_label(contents.study, picture, *run.run);
+    for (const auto& [frequency, power] : spectrum_of_run(run))
+      curves.add(by.empty() ? "the scene" : by, frequency, power);
+  }
+  return {picture.title,
+          picture.x_label.empty() ? "radial frequency [cycles per side]" : picture.x_label,
+          picture.y_label.empty() ? "mean square velocity [m²/s²]" : picture.y_label,
+          picture.log_x,
+          picture.log_y,
+          false,
+          curves.sorted()};
+}
+
+double longest(const std::vector<Shown>& runs) {
+  double duration = 0.0;
+  for (const Shown& run : runs) duration = std::max(duration, run.result->value("duration").value_or(0.0));
+  return duration;
+}
+
+render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture) {
+  const std::vector<Shown> runs = rendered_runs(contents, picture);
+  if (runs.empty()) fail_for("has no finished run to show");
+  switch (picture.kind) {
+    case PictureKind::strips:
+      return strips_sheet(runs, picture, longest(runs));
+    case PictureKind::spectra:
+      return spectra_sheet(runs, picture);
+    default:
+      return frames_sheet(runs, picture);
+  }
+}
+
+void make_picture(const StudyContents& contents, const PictureSpec& picture) {
+  const fs::path stem = contents.folder / picture.name;
+  if (picture.kind == PictureKind::plot)
+    render::write_plot(value_plot(contents, picture), stem);
+  else if (picture.kind == PictureKind::spectrum_curves)
+    render::write_plot(spectrum_plot(contents, picture), stem);
+  else
+    render::write_png(fs::path(stem.string() + ".png"), draw_sheet(sheet_of(contents, picture)));
+}
+
+}  // namespace
+
+std::map<std::string, std::string> make_pictures(const StudyContents& contents) {
+  std::map<std::string, std::string> faults;
+  for (const PictureSpec& picture : contents.study.pictures) {
+    try {
+      make_picture(contents, picture);
+    } catch (const std::runtime_error& error) {
+      faults[picture.name] = error.what();
+    }
+  }
+  return faults;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,144 @@
+// Rendering, measuring and timing one run.
+#include "cli/study/study_run.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "base/error.h"
+#include "cli/run/interrupt.h"
+#include "cli/run/measured_run.h"
+#include "cli/run/render_scene.h"
+#include "cli/scene/hash.h"
+#include "cli/text/command_text.h"
+#include "cli/text/version.h"
+#include "sim/limit/paper_step.h"
+
+namespace billow::cli {
+
+namespace {
+
+void add(RunResult& result, const std::string& column, std::optional<double> value) {
+  if (value && std::isfinite(*value)) result.values.emplace_back(column, *value);
+}
+
+// Limits also as multiples of what the method stands without a filter: 2 / sqrt(k0), or 2 sqrt(2) / sqrt(k0).
+void add_limit(RunResult& result, const std::string& column, std::optional<double> step,
+               std::optional<double> unfiltered) {
+  add(result, column, step);
+  if (step && unfiltered) add(result, column + "_ratio", *step / *unfiltered);
+}
+
+void add_limits(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
+  const std::optional<double> unfiltered = sim::paper_step(scene.solver.method, choice.k0.value);
+  add(result, "duration", scene.duration);
+  add(result, "particles", simulation.structure().particles());
+  add(result, "springs", simulation.structure().springs());
+  add(result, "k0", choice.k0.value);
+  add(result, "unfiltered", unfiltered);
+  add_limit(result, "paper", choice.paper, unfiltered);
+  add_limit(result, "certified", choice.certified, unfiltered);
+  add_limit(result, "any_shape", choice.any_shape, unfiltered);
+  if (choice.step > 0.0) add_limit(result, "step", choice.step, unfiltered);
+}
+
+void add_measured(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
+  const sim::MeasuredStep measured =
+      measure_step(scene, simulation, scene.solver.method, simulation.filter(), choice.limit, choice.k0.value);
+  if (!measured.unlimited)
+    add_limit(result, "measured", measured.step, sim::paper_step(scene.solver.method, choice.k0.value));
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// The whole scene, stepped on one thread and not drawn. The certificate has warmed the caches already.
+void add_times(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice,
+               int repeats) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  std::vector<double> wall, processor;
+  for (int k = 0; k < repeats && interrupted_by() == 0; ++k) {
+    const auto solver = simulation.make_solver(choice);
+    const auto begin = std::chrono::steady_clock::now();
+    const double begin_processor = processor_seconds();
+    solver->sample(scene.duration);
+    processor.push_back(processor_seconds() - begin_processor);
+    wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    if (k > 0) continue;
+    const sim::SolveCounts solves = solver->solve_counts();
+    add(result, "steps", static_cast<double>(solver->steps()));
+    if (solves.solves > 0)
+      add(result, "iterations_per_solve", static_cast<double>(solves.iterations) / static_cast<double>(solves.solves));
+  }
+  add(result, "seconds", median(wall));
+  add(result, "cpu_seconds", median(processor));
+}
+
+void render_run(const Study& study, const StudyRun& run, const Scene& scene, const Simulation& simulation,
+                const StepChoice& choice, const std::filesystem::path& folder) {
+  RenderOptions options;
+  options.scene = study.scene;
+  options.output = folder / "film";
+  options.existing = Existing::overwrite;
+  options.progress = ProgressStyle::none;
+  options.command = command_of(study, run);
+  const int status = render_scene(scene, simulation, choice, options);
+  if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));
+}
+
+}  // namespace
+
+std::string run_hash(const Study& study, const Scene& scene) {
+  Hash hash;
+  hash.add(version());
+  hash.add(scene.hash);
+  hash.add(fmt::format("render {} measured {} repeats {}", study.measures.render, study.measures.measured,
+                       study.measures.repeats));
+  return hash.hex();
+}
+
+std::string command_of(const Study& study, const StudyRun& run) {
+  if (!study.measures.render)
+    return command_line({"billow", "study", study.file.string(), "--only", std::to_string(run.number)});
+  std::vector<std::string> words = {"billow", "render", study.scene.lexically_normal().string()};
+  for (const Override& change : overrides_of(study, run)) {
+    words.push_back("-D");
+    words.push_back(change.path + "=" + change.value);
+  }
+  return command_line(words);
+}
+
+RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder) {
+  const Scene scene = read_scene(study.scene, overrides_of(study, run));
+  RunResult result{RunStatus::done, run_hash(study, scene), command_of(study, run), "", scene.effective, {}};
+  const Simulation simulation(scene);
+  // A scheme that grows at every step has limits to report, but no step to run with.
+  const bool steps = study.measures.render || study.measures.repeats > 0;
+  const StepChoice choice = steps ? simulation.choose_step() : simulation.find_limits();
+  add_limits(result, scene, simulation, choice);
+  try {
+    if (study.measures.measured) add_measured(result, scene, simulation, choice);
+    if (study.measures.repeats > 0) add_times(result, scene, simulation, choice, study.measures.repeats);
+    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder);
+  } catch (const DivergenceError& error) {
+    result.status = RunStatus::diverged;
+    result.message = error.what();
+  }
+  if (interrupted_by() == 0) write_result(folder, result);
+  return result;
+}
+
+}  // namespace billow::cli

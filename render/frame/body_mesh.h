@@ -1,0 +1,33 @@
+// A body's triangles in GL: static topology and texture coordinates, positions and velocities of the frame.
+#pragma once
+
+#include <vector>
+
+#include "render/gl/gl_objects.h"
+#include "sim/drawn/surface.h"
+
+namespace billow::render {
+
+/// Vertex attributes: 0 position [m], 1 normal, 2 velocity [m/s], 3 texture coordinates.
+class BodyMesh {
+ public:
+  BodyMesh(const Gl& gl, const sim::Surface& surface);
+
+  /// Uploads the frame's positions and velocities and the normals that follow. Throws std::invalid_argument when
+  /// `state` does not have the surface's points.
+  void update(const sim::SurfaceState& state);
+  void draw() const;
+
+ private:
+  struct Corner {
+    float position[3], normal[3], velocity[3];
+  };
+  void describe_moving() const;
+
+  const Gl* gl_;
+  sim::Surface surface_;
+  std::vector<Corner> corner_;
+  GlObject array_, moving_, fixed_, index_;
+};
+
+}  // namespace billow::render

@@ -1,0 +1,37 @@
+// What all views of a run are drawn with: the GL, the bodies in it, their shadows and surroundings.
+#pragma once
+
+#include <vector>
+
+#include "render/frame/body_mesh.h"
+#include "render/frame/drawn_body.h"
+#include "render/frame/shadow.h"
+#include "render/frame/stage.h"
+#include "render/frame/surroundings.h"
+#include "render/gl/frame_target.h"
+#include "render/gl/gl_context.h"
+#include "render/gl/pixel_box.h"
+#include "render/image/settings.h"
+
+namespace billow::render {
+
+/// Made once per run. Its context must be current wherever it is used, destroyed or drawn with.
+struct FrameParts {
+  FrameParts(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds, int threads);
+
+  const Gl& gl() const { return context.gl(); }
+  /// Moves the bodies: states[b] belongs to the b-th. Throws std::invalid_argument when the states are not theirs.
+  void update(const std::vector<sim::SurfaceState>& states);
+
+  Settings settings;
+  double velocity_range;  // [m/s] v_max: the settings', or else the run's
+  Stage stage;
+  GlContext context;
+  FrameTarget target;
+  Shadow shadow;
+  Surroundings surroundings;
+  std::vector<BodyMesh> meshes;  // one per body
+  PixelBox covered;              // by the bodies of the current frame
+};
+
+}  // namespace billow::render

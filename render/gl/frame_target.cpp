@@ -1,0 +1,130 @@
+// The framebuffers of a frame, their resolve and their read-back.
+#include "render/gl/frame_target.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/error.h"
+
+namespace billow::render {
+namespace {
+
+constexpr int max_multisamples = 4;
+
+GlObject make_storage(const Gl& gl, GLenum format, int samples, int width, int height) {
+  GlObject buffer = make_renderbuffer(gl);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, format, width, height);
+  return buffer;
+}
+
+GlObject make_picture(const Gl& gl, int width, int height) {
+  return make_plain_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_NEAREST);
+}
+
+void require_complete(const Gl& gl) {
+  if (const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
+    throw std::runtime_error(fmt::format("the framebuffer is incomplete (0x{:04x})", status));
+}
+
+GlObject make_target(const Gl& gl, const GlObject& texture) {
+  GlObject framebuffer = make_framebuffer(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  require_complete(gl);
+  return framebuffer;
+}
+
+GlObject make_sampled_target(const Gl& gl, const GlObject& colour, const GlObject& depth) {
+  GlObject framebuffer = make_framebuffer(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+  require_complete(gl);
+  return framebuffer;
+}
+
+void require_size(const GlLimits& limits, int width, int height, int scale) {
+  if (width < 1 || height < 1 || width > limits.max_size / scale || height > limits.max_size / scale)
+    throw InputError(fmt::format("render.size {} x {} cannot be drawn: with these samples at most {} pixels each way",
+                                 width, height, limits.max_size / scale));
+}
+
+// GL counts rows upwards and has four channels.
+Image to_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) {
+  Image image(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = rgba.data() + std::size_t(height - 1 - y) * width * 4;
+    std::uint8_t* to = image.row(y);
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
+  }
+  return image;
+}
+
+}  // namespace
+
+FrameTarget::FrameTarget(const Gl& gl, const GlLimits& limits, int width, int height, int samples)
+    : gl_(&gl), width_(width), height_(height), scale_(samples > max_multisamples ? 2 : 1) {
+  require_size(limits, width, height, scale_);
+  const int multisamples = std::min(samples / (scale_ * scale_), limits.max_samples);
+  const int w = drawn_width(), h = drawn_height();
+  plain_colour_ = make_picture(gl, w, h);
+  plain_ = make_target(gl, plain_colour_);
+  backdrop_colour_ = make_picture(gl, w, h);
+  backdrop_ = make_target(gl, backdrop_colour_);
+  reduced_colour_ = make_picture(gl, width, height);
+  reduced_ = make_target(gl, reduced_colour_);
+  sampled_colour_ = make_storage(gl, GL_SRGB8_ALPHA8, multisamples, w, h);
+  sampled_depth_ = make_storage(gl, GL_DEPTH_COMPONENT24, multisamples, w, h);
+  sampled_ = make_sampled_target(gl, sampled_colour_, sampled_depth_);
+  rgba_.resize(std::size_t(width) * height * 4);
+}
+
+void FrameTarget::bind_plain() const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, plain_.name());
+  gl_->Viewport(0, 0, drawn_width(), drawn_height());
+  gl_->Disable(GL_SCISSOR_TEST);
+  gl_->Disable(GL_DEPTH_TEST);
+}
+
+void FrameTarget::copy(const GlObject& from, const GlObject& to) const {
+  gl_->Disable(GL_SCISSOR_TEST);
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
+  const int w = drawn_width(), h = drawn_height();
+  gl_->BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void FrameTarget::bind_sampled(const PixelBox& box) const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, sampled_.name());
+  gl_->Viewport(0, 0, drawn_width(), drawn_height());
+  gl_->Enable(GL_SCISSOR_TEST);
+  gl_->Scissor(box.left, box.bottom, box.width(), box.height());
+  gl_->Enable(GL_DEPTH_TEST);
+  gl_->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+void FrameTarget::resolve(const PixelBox& box) const {
+  gl_->Disable(GL_SCISSOR_TEST);
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.name());
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.name());
+  gl_->BlitFramebuffer(box.left, box.bottom, box.right, box.top, box.left, box.bottom, box.right, box.top,
+                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Image FrameTarget::read() {
+  if (scale_ > 1) {
+    // Half the size with bilinear filtering samples the middle of each 2 x 2 block: its mean.
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, plain_.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, reduced_.name());
+    gl_->BlitFramebuffer(0, 0, drawn_width(), drawn_height(), 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, scale_ > 1 ? reduced_.name() : plain_.name());
+  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+  return to_rgb(rgba_, width_, height_);
+}
+
+}  // namespace billow::render

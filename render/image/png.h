@@ -1,0 +1,25 @@
+// PNG files in and out. png.cpp is the only file that knows libpng.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "base/atomic_file.h"
+#include "render/image/image.h"
+
+namespace billow::render {
+
+/// Reads an 8-bit RGB or RGBA image (palette, grey and 16-bit files are converted).
+/// Throws InputError on a file that is missing, damaged, or larger than 8192 x 8192.
+Image read_png(const std::filesystem::path& file);
+
+/// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
+/// Throws OutputError, leaving neither file, when anything fails.
+void write_png(const std::filesystem::path& file, const Image& image);
+
+/// As write_png, for images too large to hold: `fill_row(y, row)` is asked for one row of pixels after another.
+void write_png_rows(const std::filesystem::path& file, int width, int height, int channels,
+                    const std::function<void(int y, std::uint8_t* row)>& fill_row);
+
+}  // namespace billow::render

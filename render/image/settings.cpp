@@ -1,0 +1,12 @@
+// The words of a scene's picture settings.
+#include "render/image/settings.h"
+
+namespace billow::render {
+
+Words<VelocityColour> words(VelocityColour) {
+  static constexpr Word<VelocityColour> list[] = {{"components", VelocityColour::components},
+                                                  {"magnitude", VelocityColour::magnitude}};
+  return list;
+}
+
+}  // namespace billow::render

@@ -1,0 +1,28 @@
+// The table of views: a row for each picture that can be drawn of a frame. How each is drawn is frame/view_drawing.h's.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "base/words.h"
+
+namespace billow::render {
+
+enum class View { textured, velocity };
+
+struct ViewRow {
+  View view;
+  std::string_view name;    // as scenes and records write it
+  std::string_view folder;  // of its frames, in a run's folder
+};
+
+/// All of them, in the order in which they are listed.
+std::span<const ViewRow> views();
+/// Throws std::logic_error when the view has no row.
+const ViewRow& row_of(View view);
+Words<View> words(View);
+
+inline std::string_view name(View view) { return row_of(view).name; }
+inline std::string_view folder(View view) { return row_of(view).folder; }
+
+}  // namespace billow::render

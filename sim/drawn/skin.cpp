@@ -1,0 +1,33 @@
+// Particles -> points.
+#include "sim/drawn/skin.h"
+
+namespace billow::sim {
+namespace {
+
+// point += length u / |u| and velocity += length d/dt (u / |u|), with d/dt (u / |u|) = (u' - e (e . u')) / |u|, e the
+// unit vector of u.
+void add_along(const Eigen::MatrixXf& weight, const Eigen::VectorXf& length, const SurfaceState& particles,
+               SurfaceState& points) {
+  const Eigen::MatrixX3f direction = weight * particles.position, change = weight * particles.velocity;
+  for (Eigen::Index p = 0; p < direction.rows(); ++p) {
+    const float size = direction.row(p).norm();
+    if (size == 0.0f) continue;
+    const Eigen::RowVector3f unit = direction.row(p) / size;
+    points.position.row(p) += length(p) * unit;
+    points.velocity.row(p) += length(p) / size * (change.row(p) - unit * unit.dot(change.row(p)));
+  }
+}
+
+}  // namespace
+
+SurfaceState pose(const Skin& skin, const Body& body, const State& state) {
+  const SurfaceState particles{state.position.middleRows(body.first_particle, body.particles).cast<float>(),
+                               state.velocity.middleRows(body.first_particle, body.particles).cast<float>()};
+  if (skin.middle.size() == 0) return particles;
+  SurfaceState points{skin.middle * particles.position, skin.middle * particles.velocity};
+  add_along(skin.up, skin.height, particles, points);
+  add_along(skin.side, skin.width, particles, points);
+  return points;
+}
+
+}  // namespace billow::sim

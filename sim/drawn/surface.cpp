@@ -1,0 +1,91 @@
+// Mesh -> the triangles that are drawn. A corner is a (vertex, uv) pair, so seams split corners and not vertices.
+#include "sim/drawn/surface.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "sim/mesh/planar_uv.h"
+
+namespace billow::sim {
+namespace {
+
+// A diagonal must be shorter than the other by more than rounding to win; a square's is chosen by vertex number.
+constexpr double diagonal_margin = 1e-6;
+
+using FaceUv = std::array<Eigen::Vector2f, 4>;
+
+std::vector<FaceUv> planar_corner_uvs(const Mesh& mesh) {
+  const Eigen::MatrixX2f uv = planar_uv(mesh).cast<float>();
+  std::vector<FaceUv> corner(mesh.face.size());
+  for (std::size_t f = 0; f < mesh.face.size(); ++f)
+    for (int c = 0; c < corner_count(mesh.face[f]); ++c) corner[f][c] = uv.row(mesh.face[f][c]);
+  return corner;
+}
+
+// The first corner of the diagonal that splits a quad: 0 for 0-2, 1 for 1-3. Equal diagonals go through the corner with
+// the lowest number, so that a grid is split the same way everywhere, however its faces were written.
+int split_corner(const Mesh& mesh, const Face& quad) {
+  const double even = (mesh.position.row(quad[2]) - mesh.position.row(quad[0])).norm();
+  const double odd = (mesh.position.row(quad[3]) - mesh.position.row(quad[1])).norm();
+  if (even < odd * (1.0 - diagonal_margin)) return 0;
+  if (odd < even * (1.0 - diagonal_margin)) return 1;
+  return static_cast<int>(std::min_element(quad.begin(), quad.end()) - quad.begin()) % 2;
+}
+
+// Corners in the order in which faces first use them.
+class Corners {
+ public:
+  int number_of(int vertex, const Eigen::Vector2f& uv) {
+    const auto [known, added] = number_.try_emplace({vertex, uv.x(), uv.y()}, static_cast<int>(number_.size()));
+    if (added) {
+      point_.push_back(vertex);
+      uv_.push_back(uv);
+    }
+    return known->second;
+  }
+
+  void store(Surface& surface) const {
+    surface.point = Eigen::VectorXi::Map(point_.data(), static_cast<Eigen::Index>(point_.size()));
+    surface.uv.resize(surface.point.size(), 2);
+    for (std::size_t c = 0; c < uv_.size(); ++c) surface.uv.row(static_cast<Eigen::Index>(c)) = uv_[c];
+  }
+
+ private:
+  std::map<std::tuple<int, float, float>, int> number_;
+  std::vector<int> point_;
+  std::vector<Eigen::Vector2f> uv_;
+};
+
+void add_triangles(const Mesh& mesh, const Face& face, const std::array<int, 4>& corner,
+                   std::vector<Eigen::RowVector3i>& triangles) {
+  if (corner_count(face) == 3) {
+    triangles.emplace_back(corner[0], corner[1], corner[2]);
+    return;
+  }
+  const int s = split_corner(mesh, face);
+  triangles.emplace_back(corner[s], corner[s + 1], corner[s + 2]);
+  triangles.emplace_back(corner[s], corner[s + 2], corner[(s + 3) % 4]);
+}
+
+}  // namespace
+
+Surface build_surface(const Mesh& mesh) {
+  const std::vector<FaceUv> uv = mesh.uv.empty() ? planar_corner_uvs(mesh) : mesh.uv;
+  Corners corners;
+  std::vector<Eigen::RowVector3i> triangles;
+  for (std::size_t f = 0; f < mesh.face.size(); ++f) {
+    const Face& face = mesh.face[f];
+    std::array<int, 4> corner{};
+    for (int c = 0; c < corner_count(face); ++c) corner[c] = corners.number_of(face[c], uv[f][c]);
+    add_triangles(mesh, face, corner, triangles);
+  }
+  Surface surface;
+  corners.store(surface);
+  surface.triangle.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) surface.triangle.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  return surface;
+}
+
+}  // namespace billow::sim

@@ -1,0 +1,314 @@
+// Weights and application of the low-pass filter.
+#include "sim/filter/filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "sim/pass/filter_pass.h"
+
+namespace billow::sim {
+
+namespace {
+
+Eigen::VectorXd distance_unit(const Structure& structure) {
+  Eigen::VectorXd unit(structure.particles());
+  for (const Body& body : structure.body)
+    unit.segment(body.first_particle, body.particles).setConstant(body.mean_rest_length);
+  return unit;
+}
+
+void require(bool holds, const char* message) {
+  if (!holds) throw InputError(message);
+}
+
+void check(const Structure& structure, const FilterOptions& o) {
+  require(o.lambda > 0.0 && std::isfinite(o.lambda), "the filter's lambda must be a positive number");
+  require(o.passes >= 1, "the filter needs at least one pass");
+  require(o.radius > 0.0, "the filter's radius must be positive");
+  require(o.particle_lambda.size() == 0 || o.particle_lambda.size() == structure.particles(),
+          "the filter's particle_lambda needs one value per particle");
+  require((o.particle_lambda.array() > 0.0).all() && o.particle_lambda.allFinite(),
+          "lambda must be a positive number at every particle");
+  for (const auto& [time, factor] : o.lambda_keys)
+    require(factor > 0.0 && std::isfinite(factor), "lambda must be a positive number at every time");
+  for (std::size_t k = 1; k < o.lambda_keys.size(); ++k)
+    require(o.lambda_keys[k - 1].first < o.lambda_keys[k].first, "the filter's times for lambda must be ascending");
+}
+
+// Linear between keys, constant outside them.
+double key_factor(const std::vector<std::pair<double, double>>& keys, double time) {
+  if (keys.empty()) return 1.0;
+  if (time <= keys.front().first) return keys.front().second;
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    if (time < keys[k].first) {
+      const double t = (time - keys[k - 1].first) / (keys[k].first - keys[k - 1].first);
+      return keys[k - 1].second + t * (keys[k].second - keys[k - 1].second);
+    }
+  return keys.back().second;
+}
+
+// beta(d) / beta(0): the common factor lambda cancels when the weights are normalised.
+double kernel(FilterKernel kind, double lambda, double distance) {
+  const double t = lambda * distance;
+  return kind == FilterKernel::exponential ? std::exp(-t) : std::exp(-0.5 * t * t);
+}
+
+}  // namespace
+
+Filter::Filter(const Structure& structure, FilterOptions options)
+    : structure_(structure), options_(std::move(options)), unit_(distance_unit(structure)) {
+  check(structure, options_);
+  neighbours_ = find_neighbours(structure, options_, unit_);
+  plan_ = FilterPlan(structure, neighbours_.rows);
+  strength_ = Eigen::VectorXd::Ones(structure.particles());
+  if (options_.form == FilterForm::conserving) {
+    restores_momenta_ = std::any_of(structure.body.begin(), structure.body.end(),
+                                    [&](const Body& body) { return is_free(structure, body); });
+    keep_spectrum_positive();
+  }
+  if (!constant_weights()) return;
+  FilterWeights weights;
+  compute_weights(nullptr, 0.0, weights);
+  rest_weights_ = arranged(weights);
+  plan_.share_equal_groups(rest_weights_);
+}
+
+bool Filter::constant_weights() const {
+  return options_.distances == FilterDistances::rest && options_.lambda_keys.empty();
+}
+
+void Filter::compute_weights(const Eigen::MatrixX3d* position, double time, FilterWeights& weights) const {
+  const auto& [first, column] = neighbours_.rows;
+  const double factor_now = key_factor(options_.lambda_keys, time);
+  weights.self.resize(structure_.particles());
+  weights.neighbour.resize(neighbours_.distance.size());
+  for (int i = 0; i < structure_.particles(); ++i) {
+    const double lambda =
+        factor_now * (options_.particle_lambda.size() ? options_.particle_lambda(i) : options_.lambda);
+    double sum = 1.0;  // the particle itself, at distance 0
+    for (int e = first[i]; e < first[i + 1]; ++e) {
+      const double distance =
+          position ? (position->row(i) - position->row(column[e])).norm() / unit_(i) : neighbours_.distance(e);
+      sum += weights.neighbour(e) = kernel(options_.kernel, lambda, distance);
+    }
+    // symmetric: sum_j beta_j (v_j + v_i) / 2 = (I + B) / 2
+    const double half = options_.form == FilterForm::symmetric ? 0.5 : 1.0;
+    const double factor = structure_.pinned(i) ? 0.0 : half / sum;
+    double neighbours = 0.0;
+    for (int e = first[i]; e < first[i + 1]; ++e) neighbours += weights.neighbour(e) *= factor;
+    weights.self(i) = 1.0 - neighbours;
+  }
+  if (options_.form == FilterForm::conserving) symmetrise_with_masses(weights), soften(weights);
+}
+
+// F <- (1 - strength) I + strength F, body by body
+void Filter::soften(FilterWeights& weights) const {
+  const std::vector<int>& first = neighbours_.rows.first;
+  for (int i = 0; i < structure_.particles(); ++i) {
+    weights.neighbour.segment(first[i], first[i + 1] - first[i]) *= strength_(i);
+    weights.self(i) = (1.0 - strength_(i)) + strength_(i) * weights.self(i);
+  }
+}
+
+// Where lambda is smallest the filter is strongest. The first of several such times.
+double Filter::time_of_smallest_lambda() const {
+  double smallest = 0.0;
+  for (const auto& [time, factor] : options_.lambda_keys)
+    if (factor < key_factor(options_.lambda_keys, smallest)) smallest = time;
+  return smallest;
+}
+
+// The share of every body's exchange that leaves no eigenvalue of F below 0, where it filters most: F = I - E has the
+// smallest one 1 - (the largest of E).
+void Filter::keep_spectrum_positive() {
+  constexpr double margin = 1e-3;  // for what the power iteration has not reached
+  FilterWeights weights;
+  compute_weights(nullptr, time_of_smallest_lambda(), weights);
+  const Eigen::VectorXd largest = largest_exchange(arranged(weights));
+  for (std::size_t b = 0; b < structure_.body.size(); ++b)
+    strength_.segment(structure_.body[b].first_particle, structure_.body[b].particles)
+        .setConstant(1.0 / std::max(1.0, largest(b) + margin));
+}
+
+namespace {
+
+auto rows_of(const Body& body) { return Eigen::seqN(body.first_particle, body.particles); }
+
+// The largest Rayleigh quotient of three vectors on a body in the masses' inner product: `weighted` is M times
+// `vector`, `product` E times it. Nothing where one of them is zero.
+std::optional<double> rayleigh_quotient(const Body& body, const Eigen::MatrixX3d& vector,
+                                        const Eigen::MatrixX3d& weighted, const Eigen::MatrixX3d& product) {
+  const auto rows = rows_of(body);
+  const Eigen::RowVector3d square = vector(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
+  const Eigen::RowVector3d along = product(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
+  if (!(square.minCoeff() > 0.0)) return std::nullopt;
+  return along.cwiseQuotient(square).maxCoeff();
+}
+
+}  // namespace
+
+// The largest eigenvalue of E = I - F of every body (b): by power iteration, three vectors at a time, all bodies at
+// once.
+Eigen::VectorXd Filter::largest_exchange(const PlacedWeights& weights) const {
+  constexpr int iterations = 500;
+  const Eigen::VectorXd free = structure_.inverse_mass.cwiseSign();
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(structure_.body.size());
+  Eigen::MatrixX3d v = free.asDiagonal() * seeded_noise(structure_.particles(), 1);
+  FilterScratch scratch;
+  for (int k = 0; k < iterations; ++k) {
+    const Eigen::MatrixX3d before = v;
+    apply_once(weights, v, scratch);
+    v = free.asDiagonal() * (before - v);
+    const Eigen::MatrixX3d weighted = structure_.mass.asDiagonal() * before;
+    for (std::size_t b = 0; b < structure_.body.size(); ++b) {
+      const auto quotient = rayleigh_quotient(structure_.body[b], before, weighted, v);
+      if (!quotient) continue;  // nothing is exchanged at all
+      largest(b) = *quotient;
+      const auto rows = rows_of(structure_.body[b]);
+      v(rows, Eigen::all) /= std::max(v(rows, Eigen::all).norm(), 1e-300);
+    }
+  }
+  return largest;
+}
+
+// Row i gives m_i b_ij of its momentum to j and takes m_j b_ji. With the smaller of the two both ways nothing is lost,
+// and no row's weights grow past 1.
+void Filter::symmetrise_with_masses(FilterWeights& weights) const {
+  const auto& [first, column] = neighbours_.rows;
+  FilterWeights result = weights;
+  for (int i = 0; i < structure_.particles(); ++i) {
+    if (structure_.pinned(i)) continue;
+    double neighbours = 0.0;
+    for (int e = first[i]; e < first[i + 1]; ++e) {
+      const int j = column[e];
+      const auto row = column.begin() + first[j], row_end = column.begin() + first[j + 1];
+      const auto back = std::lower_bound(row, row_end, i) - column.begin();
+      const double forth = structure_.mass(i) * weights.neighbour(e);
+      const double exchange =
+          structure_.pinned(j) ? forth : std::min(forth, structure_.mass(j) * weights.neighbour(back));
+      neighbours += result.neighbour(e) = exchange / structure_.mass(i);
+    }
+    result.self(i) = 1.0 - neighbours;
+  }
+  weights = std::move(result);
+}
+
+PlacedWeights Filter::arranged(const FilterWeights& weights) const {
+  PlacedWeights placed;
+  plan_.place(weights.self, weights.neighbour, placed);
+  return placed;
+}
+
+const PlacedWeights& Filter::weights_at(const Eigen::MatrixX3d& position, double time, FilterScratch& scratch) const {
+  if (constant_weights()) return rest_weights_;
+  const bool current = options_.distances == FilterDistances::current;
+  compute_weights(current ? &position : nullptr, time, scratch.weights);
+  plan_.place(scratch.weights.self, scratch.weights.neighbour, scratch.placed);
+  return scratch.placed;
+}
+
+namespace {
+
+FilterColumns columns_of(const Eigen::MatrixX3d& in, Eigen::MatrixX3d& out) {
+  FilterColumns columns{};
+  for (int axis = 0; axis < 3; ++axis) columns.in[axis] = in.col(axis).data(), columns.out[axis] = out.col(axis).data();
+  return columns;
+}
+
+}  // namespace
+
+void Filter::run(const PlacedWeights& weights, const FilterColumns& columns, PassScratch& scratch) const {
+  scratch.prepare();
+  for (const FilterBands& bands : plan_.bands)
+    for_each_range(bands.particles, band_group, least_part_of_a_pass, [&](int part, int begin, int end) {
+      filter_bands(bands, weights, columns, begin, end, scratch.part(part));
+    });
+  for (const FilterSlices& slices : plan_.slices) {
+    const auto filter_blocks = [&](int part, int begin, int end) {
+      for (int block = begin; block < end; ++block) filter_slices(slices, weights, columns, block, scratch.part(part));
+    };
+    for_each_range(static_cast<int>(slices.block.size()), 1, 1, filter_blocks, FilterSlices::block_particles);
+    if (!columns.base[0] && !columns.moved[0]) continue;
+    for_each_range(slices.particles, 1, least_part_of_a_pass, [&](int, int begin, int end) {
+      put_filtered(columns, slices.first_particle + begin, slices.first_particle + end);
+    });
+  }
+}
+
+// Into a second field, which then changes places with the first.
+void Filter::apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field, FilterScratch& scratch) const {
+  scratch.filtered.resize(field.rows(), 3);
+  run(weights, columns_of(field, scratch.filtered), scratch.pass);
+  field.swap(scratch.filtered);
+}
+
+void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
+                   FilterScratch& scratch) const {
+  scratch.before.clear();
+  if (restores_momenta_)
+    for (const Body& body : structure_.body) scratch.before.push_back(body_motion(structure_, body, position, field));
+  const PlacedWeights& weights = weights_at(position, time, scratch);
+  for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field, scratch);
+  for (std::size_t b = 0; b < scratch.before.size(); ++b)
+    if (is_free(structure_, structure_.body[b]))
+      restore_momenta(structure_, structure_.body[b], position, scratch.before[b], field);
+}
+
+// The last pass writes where `columns` say.
+void Filter::apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns,
+                        FilterScratch& scratch) const {
+  const PlacedWeights& weights = weights_at(position, time, scratch);
+  for (int pass = 1; pass < options_.passes; ++pass) apply_once(weights, field, scratch);
+  for (int axis = 0; axis < 3; ++axis) columns.in[axis] = field.col(axis).data();
+  run(weights, columns, scratch.pass);
+}
+
+void Filter::apply_and_move(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, double h,
+                            Eigen::MatrixX3d& velocity, Eigen::MatrixX3d& moved, FilterScratch& scratch) const {
+  if (restores_momenta_) {
+    apply(position, time, field, scratch);
+    velocity = field;
+    moved += h * velocity;
+    return;
+  }
+  FilterColumns columns = columns_of(field, velocity);
+  columns.move_step = h;
+  for (int axis = 0; axis < 3; ++axis) columns.moved[axis] = moved.col(axis).data();
+  apply_last(position, time, field, columns, scratch);
+}
+
+void Filter::apply_and_kick(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
+                            const Eigen::MatrixX3d& velocity, double h, Eigen::MatrixX3d& kicked,
+                            FilterScratch& scratch) const {
+  if (restores_momenta_) {
+    apply(position, time, field, scratch);
+    kicked = velocity + h * field;
+    return;
+  }
+  kicked.resize(field.rows(), 3);
+  FilterColumns columns = columns_of(field, kicked);
+  columns.kick_step = h;
+  for (int axis = 0; axis < 3; ++axis) columns.base[axis] = velocity.col(axis).data();
+  apply_last(position, time, field, columns, scratch);
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> Filter::weights(const Eigen::MatrixX3d& position, double time) const {
+  const bool current = options_.distances == FilterDistances::current;
+  const auto& [first, column] = neighbours_.rows;
+  FilterWeights weights;
+  compute_weights(current ? &position : nullptr, time, weights);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < structure_.particles(); ++i) {
+    entries.emplace_back(i, i, weights.self(i));
+    for (int e = first[i]; e < first[i + 1]; ++e) entries.emplace_back(i, column[e], weights.neighbour(e));
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(structure_.particles(), structure_.particles());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace billow::sim

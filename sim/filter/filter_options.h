@@ -1,0 +1,41 @@
+// What a filter can be told.
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/words.h"
+
+namespace billow::sim {
+
+enum class FilterKernel { exponential, gaussian };
+enum class FilterForm { plain, symmetric, conserving };
+enum class FilterTarget { velocity, force };
+enum class FilterNeighbours { springs, radius };
+enum class FilterDistances { rest, current };
+
+Words<FilterKernel> words(FilterKernel);
+Words<FilterForm> words(FilterForm);
+Words<FilterTarget> words(FilterTarget);
+Words<FilterNeighbours> words(FilterNeighbours);
+Words<FilterDistances> words(FilterDistances);
+
+/// The target's name as scenes and reports write it.
+std::string_view name(FilterTarget target);
+
+struct FilterOptions {
+  FilterKernel kernel = FilterKernel::exponential;  // beta(d) = lambda e^(-lambda |d|), or lambda e^(-(lambda d)^2 / 2)
+  double lambda = 1.0;                              // [1 / mean rest length] > 0; smaller filters more
+  FilterForm form = FilterForm::plain;
+  FilterTarget target = FilterTarget::velocity;
+  FilterNeighbours neighbours = FilterNeighbours::springs;
+  double radius = 2.0;  // [mean rest length] for FilterNeighbours::radius
+  FilterDistances distances = FilterDistances::rest;
+  int passes = 1;                                           // times the operator is applied per step, >= 1
+  Eigen::VectorXd particle_lambda = {};                     // (n) lambda of each particle; empty: `lambda` everywhere
+  std::vector<std::pair<double, double>> lambda_keys = {};  // (time [s], factor on lambda), ascending; empty: 1 always
+};
+
+}  // namespace billow::sim

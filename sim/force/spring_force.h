@@ -1,0 +1,46 @@
+// Springs and their damping as one law of force.
+#pragma once
+
+#include "sim/force/force_law.h"
+#include "sim/pass/spring_plan.h"
+#include "sim/pass/spring_sink.h"
+
+namespace billow::sim {
+
+struct ForceScratch;
+
+/// f_i = T(|d|) d/|d| + damping, d = x_j - x_i, for every spring of the structure, by each body's model.
+/// The springs are laid out for the vector passes when this is made: the structure must not change after that.
+class SpringForce : public ForceLaw {
+ public:
+  explicit SpringForce(const Structure& structure) : structure_(structure), plan_(structure) {}
+  std::string_view name() const override { return "the springs"; }
+  /// One spring after another: what every sweep must come to.
+  void add_force(const State& state, Eigen::MatrixX3d& force) const override;
+  double energy(const State& state) const override;
+  void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
+                         StiffnessMatrix& matrix) const override;
+  /// As linearise_at_rest and linearise_any_shape.
+  bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  bool passive() const override { return true; }
+  bool join(FusedSweep& sweep) const override;
+
+  /// Puts the sum of its springs, also where there are none, of every particle into `sink`, with each body's friction
+  /// where `friction`.
+  void sweep(const State& state, const SpringSink& sink, bool friction, ForceScratch& scratch) const;
+
+ private:
+  const Structure& structure_;
+  SpringPlan plan_;
+};
+
+/// Springs, their damping and friction about rest, every spring with its full stiffness along itself, whichever way its
+/// model would let it go slack: the stiffest that the structure can be at its rest shape.
+Linearisation linearise_at_rest(const Structure& structure);
+
+/// Their upper bound over every shape: each spring with its steepest slope in all directions at once. While tensions
+/// stay below k l, a spring's true block (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or
+/// crumple of the structure is stiffer than this.
+Linearisation linearise_any_shape(const Structure& structure);
+
+}  // namespace billow::sim

@@ -1,0 +1,111 @@
+// Closedness by counting how often faces run along each edge each way; volume by the divergence theorem.
+#include "sim/mesh/closed_surface.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "sim/mesh/mesh_edges.h"
+
+namespace billow::sim {
+namespace {
+
+// A surface that encloses less than this share of its bounding cube is flat but for rounding.
+constexpr double least_volume_share = 1e-9;
+
+Eigen::Vector3d corner(const Mesh& mesh, const Face& face, int c) { return mesh.position.row(face[c]); }
+
+// The integral of the normal over a face [m^2]: the corners' cross products around its first one.
+Eigen::Vector3d area_vector(const Mesh& mesh, const Face& face) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int c = 1; c + 1 < corner_count(face); ++c)
+    sum +=
+        0.5 * (corner(mesh, face, c) - corner(mesh, face, 0)).cross(corner(mesh, face, c + 1) - corner(mesh, face, 0));
+  return sum;
+}
+
+std::string shown(const Mesh& mesh, int vertex) {
+  const Eigen::RowVector3d place = mesh.position.row(vertex);
+  return fmt::format("{} ({:.4g}, {:.4g}, {:.4g})", vertex, place.x(), place.y(), place.z());
+}
+
+// +1 where the face runs along the edge from its first to its second vertex, -1 the other way.
+int direction_along(const Face& face, const Edge& edge) {
+  const int corners = corner_count(face);
+  for (int c = 0; c < corners; ++c) {
+    if (face[c] == edge.first && face[(c + 1) % corners] == edge.second) return 1;
+    if (face[c] == edge.second && face[(c + 1) % corners] == edge.first) return -1;
+  }
+  return 0;
+}
+
+void require_two_faces(const Mesh& mesh, const Edge& edge) {
+  if (edge.face.size() != 2)
+    throw InputError(fmt::format(
+        "the edge between the vertices {} and {} belongs to {} {}, and a soft body's surface "
+        "must be closed, with two faces at every edge; close the mesh, or make it a cloth",
+        shown(mesh, edge.first), shown(mesh, edge.second), edge.face.size(), edge.face.size() == 1 ? "face" : "faces"));
+  if (direction_along(mesh.face[edge.face[0]], edge) == direction_along(mesh.face[edge.face[1]], edge))
+    throw InputError(
+        fmt::format("the two faces at the edge between the vertices {} and {} face opposite ways; let all "
+                    "faces of the mesh point outwards",
+                    shown(mesh, edge.first), shown(mesh, edge.second)));
+}
+
+void require_volume(const Mesh& mesh) {
+  const Eigen::RowVector3d size = mesh.position.colwise().maxCoeff() - mesh.position.colwise().minCoeff();
+  const double volume = std::abs(enclosed_volume(mesh));
+  if (!(volume > least_volume_share * std::pow(size.maxCoeff(), 3)))
+    throw InputError("the mesh is closed but encloses no volume; give it thickness, or make it a cloth");
+}
+
+// Union by the smaller number, so that the result depends on nothing but the edges.
+int root_of(std::vector<int>& parent, int v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+void require_one_piece(const Mesh& mesh, const std::vector<Edge>& edges) {
+  std::vector<int> parent(static_cast<std::size_t>(mesh.vertices()));
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Edge& edge : edges) {
+    const int one = root_of(parent, edge.first), other = root_of(parent, edge.second);
+    parent[std::max(one, other)] = std::min(one, other);
+  }
+  int pieces = 0;
+  for (int v = 0; v < mesh.vertices(); ++v) pieces += parent[v] == v;
+  if (pieces > 1)
+    throw InputError(
+        fmt::format("the mesh is {} separate surfaces that would fall apart; join them into one, or make "
+                    "each a body of its own",
+                    pieces));
+}
+
+}  // namespace
+
+double enclosed_volume(const Mesh& mesh) {
+  double sum = 0.0;  // of the signed volumes of tetrahedra between the faces and the first vertex
+  const Eigen::Vector3d apex = mesh.position.row(0);
+  for (const Face& face : mesh.face) sum += area_vector(mesh, face).dot(corner(mesh, face, 0) - apex) / 3.0;
+  return sum;
+}
+
+Eigen::MatrixX3d outward_normals(const Mesh& mesh) {
+  Eigen::MatrixX3d normal = Eigen::MatrixX3d::Zero(mesh.vertices(), 3);
+  for (const Face& face : mesh.face)
+    for (int c = 0; c < corner_count(face); ++c) normal.row(face[c]) += area_vector(mesh, face).transpose();
+  if (enclosed_volume(mesh) < 0.0) normal = -normal;
+  return normal.rowwise().normalized();
+}
+
+void require_solid(const Mesh& mesh) {
+  const std::vector<Edge> edges = distinct_edges(mesh);
+  for (const Edge& edge : edges) require_two_faces(mesh, edge);
+  require_one_piece(mesh, edges);
+  require_volume(mesh);
+}
+
+}  // namespace billow::sim

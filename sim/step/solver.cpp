@@ -1,0 +1,133 @@
+// Stepping, sampling between steps, and noticing divergence.
+#include "sim/step/solver.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace billow::sim {
+
+namespace {
+
+// Steps between looks at every spring. Speeds are looked at after every step, so a blow-up is seen at once; this
+// catches springs that creep apart.
+constexpr int strain_check_interval = 16;
+
+/// The most stretched spring; a strain that is not a number counts as infinite.
+struct WorstSpring {
+  int spring = 0;
+  double strain = 0.0;
+};
+
+WorstSpring worst_spring(const Structure& structure, const State& state) {
+  WorstSpring worst;
+  for (int s = 0; s < structure.springs(); ++s) {
+    const double length =
+        (state.position.row(structure.spring(s, 1)) - state.position.row(structure.spring(s, 0))).norm();
+    double strain = length / structure.rest_length(s) - 1.0;
+    if (!std::isfinite(strain)) strain = INFINITY;
+    if (strain > worst.strain) worst = {s, strain};
+  }
+  return worst;
+}
+
+int fastest_particle(const State& state) {
+  int fastest = 0;
+  double most = -1.0;
+  for (int i = 0; i < state.velocity.rows(); ++i) {
+    const double speed = state.velocity.row(i).squaredNorm();
+    if (!std::isfinite(speed)) return i;
+    if (speed > most) most = speed, fastest = i;
+  }
+  return fastest;
+}
+
+const Body& body_of(const Structure& structure, int particle) {
+  for (const Body& body : structure.body)
+    if (particle < body.first_particle + body.particles) return body;
+  return structure.body.back();
+}
+
+/// "particle 12 of 'drape'", numbered as the body's mesh is.
+std::string particle_name(const Structure& structure, int particle) {
+  const Body& body = body_of(structure, particle);
+  return fmt::format("particle {} of '{}'", particle - body.first_particle, body.name);
+}
+
+// x(t) between two states by the cubic that meets both ends' positions and velocities; v(t) linear.
+State interpolated(const State& from, const State& to, double time) {
+  const double h = to.time - from.time, t = (time - from.time) / h;
+  const double a = t * t * (3.0 - 2.0 * t), b = t * (1.0 - t) * (1.0 - t) * h, c = -t * t * (1.0 - t) * h;
+  return {(1.0 - a) * from.position + a * to.position + b * from.velocity + c * to.velocity,
+          (1.0 - t) * from.velocity + t * to.velocity, time};
+}
+
+}  // namespace
+
+Solver::Solver(const Structure& structure, const Forces& forces, const SolverOptions& options, State initial)
+    : structure_(structure),
+      options_(options),
+      filter_(options.filter ? std::make_optional<Filter>(structure, *options.filter) : std::nullopt),
+      step_(forces, options.method, options.integrator, filter_ ? &*filter_ : nullptr),
+      state_(std::move(initial)),
+      previous_(state_),
+      start_time_(state_.time) {
+  if (!(options_.step > 0.0)) throw InputError("the time step must be positive");
+  for (int i = 0; i < structure.particles(); ++i)
+    if (structure.pinned(i)) state_.velocity.row(i).setZero();
+}
+
+void Solver::advance() {
+  step_(state_, options_.step);
+  ++steps_;
+  state_.time = start_time_ + static_cast<double>(steps_) * options_.step;
+  check_divergence();
+}
+
+// A particle that crosses a whole rest length in one step is suspect, and then every spring is looked at.
+void Solver::check_divergence() const {
+  const double speed_square = state_.velocity.squaredNorm();
+  double reach = 0.0;
+  for (const Body& body : structure_.body) reach = std::max(reach, body.mean_rest_length / options_.step);
+  const bool suspect = !(speed_square < reach * reach);
+  if (!suspect && steps_ % strain_check_interval != 0) return;
+  if (!std::isfinite(speed_square) || !std::isfinite(state_.position.sum()) ||
+      worst_spring(structure_, state_).strain > options_.max_strain)
+    report_divergence();
+}
+
+void Solver::report_divergence() const {
+  const WorstSpring worst = worst_spring(structure_, state_);
+  const int i = structure_.spring(worst.spring, 0), j = structure_.spring(worst.spring, 1);
+  throw DivergenceError(fmt::format(
+      "the simulation diverged at step {} (t = {:.4f} s): {} is the fastest; {} spring {} ({} to {}) is stretched by "
+      "{:.3g} times its rest length; the step was {:.4g} s and {}",
+      steps_, state_.time, particle_name(structure_, fastest_particle(state_)), name(structure_.kind[worst.spring]),
+      worst.spring, particle_name(structure_, i), particle_name(structure_, j), worst.strain, options_.step, advice()));
+}
+
+// A step beyond the limit is the usual cause; a run that diverges within it was pulled apart.
+std::string Solver::advice() const {
+  const std::string scheme = fmt::format("{}{}", name(options_.method), options_.filter ? " with this filter" : "");
+  if (!options_.limit) return fmt::format("{} has no known limit here; use a smaller step", scheme);
+  if (options_.step > *options_.limit)
+    return fmt::format("the limit for {} is {:.4g} s; use 'step: auto' or a smaller step", scheme, *options_.limit);
+  return fmt::format(
+      "the limit for {} is {:.4g} s, so the springs are too soft for what pulls at them: raise the stiffness or lower "
+      "the mass",
+      scheme, *options_.limit);
+}
+
+State Solver::sample(double time) {
+  const double rounding = 1e-9 * options_.step;
+  while (state_.time < time - rounding) {
+    // The last step, also when it ends at `time` itself: the next sample may go back into it.
+    if (state_.time + 1.5 * options_.step > time) previous_ = state_;
+    advance();
+  }
+  if (state_.time <= time + rounding) return state_;
+  return interpolated(previous_, state_, time);
+}
+
+}  // namespace billow::sim

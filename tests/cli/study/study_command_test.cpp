@@ -1,0 +1,169 @@
+// billow study from outside: runs, resumption, failures, and what is made of them.
+#include <nlohmann/json.hpp>
+
+#include "render/image/png.h"
+#include "tests/support/browser.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/tool.h"
+
+namespace billow {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ToolResult;
+
+const std::string plot_study = R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.2}
+axes:
+  - {name: lambda, key: solver.filter.lambda, values: [0.5, 1]}
+measure: {render: false}
+pictures:
+  - {name: limits, kind: plot, x: lambda, y: [paper_ratio, certified_ratio]}
+)";
+
+class StudyCommand : public testing::Test {
+ protected:
+  StudyCommand() {
+    folder_.scene(test::base_scene);
+    folder_.write("study.yaml", plot_study);
+  }
+  ToolResult study(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"study", "study.yaml", "-o", "made"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run_tool(arguments, folder_.path());
+  }
+  fs::path made(const std::string& file) const { return folder_.path() / "made" / file; }
+  nlohmann::json record() const { return nlohmann::json::parse(test::read_text(made("study.json"))); }
+
+  test::SceneFolder folder_;
+};
+
+TEST_F(StudyCommand, MakesPlotTableRecordAndPage) {
+  const ToolResult result = study();
+  ASSERT_EQ(result.status, 0) << result.errors;
+  for (const char* file : {"limits.png", "limits.svg", "limits.csv", "results.csv", "study.json", "index.html"})
+    EXPECT_TRUE(fs::is_regular_file(made(file))) << file;
+  const nlohmann::json runs = record()["runs"];
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[1]["settings"]["lambda"], "1");
+  EXPECT_EQ(runs[1]["status"], "done");
+  EXPECT_GT(runs[0]["values"]["paper_ratio"], runs[1]["values"]["paper_ratio"]);
+}
+
+TEST_F(StudyCommand, DoesNotRepeatWhatIsFinished) {
+  ASSERT_EQ(study().status, 0);
+  const auto before = fs::last_write_time(made("runs/001-0.5/result.json"));
+  const ToolResult again = study();
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.errors.find("2 runs, 2 of them finished already"), std::string::npos) << again.errors;
+  EXPECT_EQ(fs::last_write_time(made("runs/001-0.5/result.json")), before);
+}
+
+TEST_F(StudyCommand, RepeatsWhatHasChanged) {
+  ASSERT_EQ(study().status, 0);
+  folder_.write("study.yaml", test::edited(plot_study, "[0.5, 1]", "[0.5, 4]"));
+  const ToolResult again = study();
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.errors.find("2 runs, 1 of them finished already"), std::string::npos) << again.errors;
+}
+
+TEST_F(StudyCommand, ListsRunsDoesOneAndCollects) {
+  EXPECT_EQ(study({"--only", "2"}).status, 0);
+  EXPECT_EQ(study({"--list"}).output, "   1  missing   0.5\n   2  done      1\n");
+  EXPECT_FALSE(fs::exists(made("limits.png")));
+  const ToolResult collected = study({"--collect"});
+  EXPECT_EQ(collected.status, 1);
+  EXPECT_NE(collected.errors.find("1 runs are missing or failed"), std::string::npos) << collected.errors;
+  EXPECT_TRUE(fs::exists(made("limits.png")));
+  EXPECT_EQ(study({"--only", "3"}).status, 4);
+}
+
+TEST_F(StudyCommand, MarksADivergedRunAndGoesOn) {
+  std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
+                                  "{name: h, key: solver.step, values: [0.001, 0.19]}");
+  text = test::edited(text, "render: false", "render: false, repeats: 1");
+  text = test::edited(text, "duration: 0.2", "duration: 20");
+  folder_.write("study.yaml", test::edited(text, "x: lambda, y: [paper_ratio, certified_ratio]", "x: h, y: seconds"));
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 0) << result.errors;
+  const nlohmann::json runs = record()["runs"];
+  EXPECT_EQ(runs[0]["status"], "done");
+  EXPECT_EQ(runs[1]["status"], "diverged");
+  EXPECT_NE(runs[1]["message"].get<std::string>().find("the simulation diverged at step"), std::string::npos);
+}
+
+TEST_F(StudyCommand, ReportsTheLimitsOfASchemeThatGrowsAtEveryStep) {
+  const std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
+                                        "{name: lambda, key: solver.filter, values: [none]}");
+  folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 0.2, solver.method: forward_euler"));
+  study();
+  EXPECT_EQ(record()["runs"][0]["status"], "done");
+  EXPECT_EQ(record()["runs"][0]["values"]["certified"], 0.0);
+}
+
+TEST_F(StudyCommand, KeepsAFailedRunsLastWords) {
+  std::string text = test::edited(plot_study, "{name: lambda, key: solver.filter.lambda, values: [0.5, 1]}",
+                                  "{name: lambda, key: solver.method, values: [fb_euler, forward_euler]}");
+  text = test::edited(text, "render: false", "render: false, repeats: 1");
+  folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 0.2, solver.filter: none"));
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(record()["runs"][1]["status"], "failed");
+  EXPECT_NE(record()["runs"][1]["message"].get<std::string>().find("grows at every step"), std::string::npos);
+}
+
+TEST_F(StudyCommand, RendersStripsSpectraAndFrames) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.2, strip: {step: 0.02}, spectrum: {step: 0.05, at: 0.1}}
+axes:
+  - {name: lambda, key: solver.filter.lambda, values: [0.5, 1]}
+pictures:
+  - {name: strips, kind: strips, rows: lambda, times: [0, 0.1]}
+  - {name: frames, kind: frames, rows: lambda, times: [0, 0.1]}
+  - {name: spectra, kind: spectra, columns: lambda}
+  - {name: curves, kind: spectrum_curves, by: [lambda], log: [y]}
+)");
+  const ToolResult result = study();
+  ASSERT_EQ(result.status, 0) << result.errors;
+  for (const char* file : {"strips.png", "frames.png", "spectra.png", "curves.png"}) {
+    const render::Image image = render::read_png(made(file));
+    EXPECT_GT(image.width, 100) << file;
+  }
+  EXPECT_TRUE(fs::exists(made("curves.csv")));
+  EXPECT_TRUE(fs::exists(made("runs/001-0.5/film/run.json")));
+}
+
+// Every picture loads, nothing complains, and the page says what the runs were.
+TEST_F(StudyCommand, MakesAPageThatABrowserOpens) {
+  ASSERT_EQ(study().status, 0);
+  const test::Screenshot page = test::screenshot(made(""), "index.html", 900, 1400);
+  EXPECT_TRUE(page.console.empty()) << page.console.front();
+  EXPECT_EQ(page.image.width, 900);
+  const std::string html = test::read_text(made("index.html"));
+  for (const char* part : {"limits.svg", "<td>0.5</td>", "results.csv", "billow study study.yaml --only 2"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("http"), std::string::npos) << "asks the network";
+}
+
+TEST_F(StudyCommand, LeavesOtherFoldersAlone) {
+  fs::create_directory(made(""));
+  folder_.write("made/letter.txt", "Dear");
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 6);
+  EXPECT_NE(result.errors.find("already holds files that are not a study's"), std::string::npos) << result.errors;
+}
+
+TEST_F(StudyCommand, FindsAFaultBeforeTheFirstRun) {
+  folder_.write("study.yaml", test::edited(plot_study, "values: [0.5, 1]", "values: [0.5, -1]"));
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 4);
+  EXPECT_EQ(
+      result.errors,
+      "study.yaml:5:61: lambda is -1 per mean rest length; it must be above 0 and at most 1000 per mean rest length\n");
+  EXPECT_FALSE(fs::exists(made("")));
+}
+
+}  // namespace
+}  // namespace billow

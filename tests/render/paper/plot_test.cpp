@@ -1,0 +1,136 @@
+// Plots through gnuplot.
+#include "render/paper/plot.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "render/image/png.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/tool.h"
+
+namespace billow::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+Plot two_curves() {
+  return {"Time \"against\" size",
+          "particles",
+          "seconds",
+          true,
+          true,
+          true,
+          {{"FB Euler", {1, 10, 100}, {0.5, 5, 50}}, {"a \\ $weird 'name', %s", {1, 10, 100}, {1, NAN, 30}}}};
+}
+
+TEST(WritePlot, WritesPictureVectorsAndData) {
+  const test::TemporaryFolder folder;
+  write_plot(two_curves(), folder.path() / "time");
+  const Image image = read_png(folder.path() / "time.png");
+  EXPECT_EQ(image.width, 1280);
+  EXPECT_NE(test::read_text(folder.path() / "time.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(test::read_text(folder.path() / "time.csv"),
+            "curve,x,y\n\"FB Euler\",1,0.5\n\"FB Euler\",10,5\n\"FB Euler\",100,50\n\"a \\ $weird 'name', "
+            "%s\",1,1\n\"a \\ $weird 'name', %s\",100,30\n");
+}
+
+TEST(WritePlot, GivesTheSameBytesTwice) {
+  const test::TemporaryFolder folder;
+  write_plot(two_curves(), folder.path() / "a");
+  write_plot(two_curves(), folder.path() / "b");
+  for (const char* end : {".png", ".svg"})
+    EXPECT_EQ(test::read_text(folder.path() / (std::string("a") + end)),
+              test::read_text(folder.path() / (std::string("b") + end)))
+        << end;
+}
+
+// gnuplot gives what stands in backquotes to a shell, even between double quotes.
+TEST(WritePlot, RunsNothingThatANameSays) {
+  const test::TemporaryFolder folder;
+  Plot plot = two_curves();
+  const std::string command = fmt::format("`touch {}`", (folder.path() / "ran").string());
+  plot.title = plot.x_label = plot.y_label = plot.curves[0].name = command;
+  plot.curves[1].name = "it's \\\n & <b> $x @y {z}_2 %s \"";
+  write_plot(plot, folder.path() / "time `touch ran`");
+  EXPECT_FALSE(fs::exists(folder.path() / "ran"));
+  const std::string svg = test::read_text(folder.path() / "time `touch ran`.svg");
+  EXPECT_THAT(svg, testing::HasSubstr("`touch "));
+  EXPECT_THAT(svg, testing::HasSubstr("it's \\  &amp; &lt;b> $x @y {z}_2 %s \""));
+}
+
+// A value that is not a number parts the curve in two.
+TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
+  const test::TemporaryFolder folder;
+  Plot whole{"", "x", "y", false, false, false, {{"c", {0, 1, 2, 3, 4}, {1, 2, 3, 2, 1}}}}, gap = whole;
+  gap.curves[0].y[2] = NAN;
+  write_plot(whole, folder.path() / "whole");
+  write_plot(gap, folder.path() / "gap");
+  EXPECT_NE(test::read_text(folder.path() / "gap.svg"), test::read_text(folder.path() / "whole.svg"));
+  EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\n\"c\",0,1\n\"c\",1,2\n\"c\",3,2\n\"c\",4,1\n");
+}
+
+/// The pictures' and the table's text of a plot.
+struct Written {
+  std::string svg, csv;
+};
+
+Written written(const Plot& plot) {
+  const test::TemporaryFolder folder;
+  write_plot(plot, folder.path() / "time");
+  return {test::read_text(folder.path() / "time.svg"), test::read_text(folder.path() / "time.csv")};
+}
+
+Plot logarithms_of(const std::vector<double>& x, const std::vector<double>& y) {
+  return {"", "x", "y", true, true, true, {{"whole", {1, 10, 100}, {1, 2, 3}}, {"lacking", x, y}}};
+}
+
+// A picture without what is not there, and all of it in the table.
+TEST(WritePlot, LeavesOutWhatALogarithmDoesNotHave) {
+  const std::vector<double> x = {1, 10, 100}, lacking_x = {-1, 0, 100};
+  const std::vector<double> y = {4, 5, 6}, lacking_y = {0, -1, 6};
+  const Written gap = written(logarithms_of(x, {NAN, NAN, 6}));
+  for (const auto& [plot, rows] :
+       {std::pair{logarithms_of(x, lacking_y), "\"lacking\",1,0\n\"lacking\",10,-1\n\"lacking\",100,6\n"},
+        {logarithms_of(lacking_x, y), "\"lacking\",-1,4\n\"lacking\",0,5\n\"lacking\",100,6\n"}}) {
+    const Written picture = written(plot);
+    EXPECT_EQ(picture.svg, gap.svg) << "as if there were no number";
+    EXPECT_THAT(picture.csv, testing::EndsWith(rows));
+  }
+  EXPECT_NE(written(logarithms_of(x, y)).svg, gap.svg) << "the test must be able to tell";
+}
+
+// gnuplot alone would refuse to draw any curve then.
+TEST(WritePlot, DrawsTheOtherCurvesWhereOneHasNoLogarithmAtAll) {
+  const Written picture = written(logarithms_of({1, 10, 100}, {0, -1, -2}));
+  EXPECT_THAT(picture.svg, testing::HasSubstr(">whole<"));
+  EXPECT_THAT(picture.svg, testing::Not(testing::HasSubstr("lacking")));
+  EXPECT_THAT(picture.csv, testing::HasSubstr("\"lacking\",100,-2"));
+}
+
+TEST(WritePlot, RefusesToPlotNothing) {
+  const test::TemporaryFolder folder;
+  Plot plot = two_curves();
+  plot.curves.clear();
+  EXPECT_THROW(write_plot(plot, folder.path() / "time"), OutputError);
+}
+
+TEST(WritePlot, SaysWhatToInstall) {
+  const test::TemporaryFolder folder;
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  std::string message;
+  try {
+    write_plot(two_curves(), folder.path() / "time");
+  } catch (const OutputError& error) {
+    message = error.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(message.find("install the package gnuplot-nox"), std::string::npos) << message;
+  EXPECT_FALSE(fs::exists(folder.path() / "time.png"));
+}
+
+}  // namespace
+}  // namespace billow::render

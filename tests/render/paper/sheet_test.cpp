@@ -1,0 +1,106 @@
+// Sheets of pictures.
+#include "render/paper/sheet.h"
+
+#include "base/error.h"
+#include "tests/support/golden.h"
+
+namespace billow::render {
+namespace {
+
+Image ramp(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      image.row(y)[3 * x] = static_cast<std::uint8_t>(255 * x / std::max(1, width - 1));
+      image.row(y)[3 * x + 1] = static_cast<std::uint8_t>(255 * y / std::max(1, height - 1));
+    }
+  return image;
+}
+
+TEST(Sheet, SharesOneTimeAxis) {
+  Sheet sheet{"Strips", "Two strips and three frames at their times.", {}, 0.0, 4.0, 400, {}};
+  sheet.rows.push_back({"(a) first", {{ramp(80, 40), 400, 60, true, ""}}, {}, false});
+  sheet.rows.push_back({"(b) ended at 3 s", {{ramp(60, 40), 300, 60, true, ""}}, {}, true});
+  sheet.rows.push_back(
+      {"(c) frames",
+       {{ramp(9, 6), 90, 60, true, ""}, {ramp(9, 6), 90, 60, true, ""}, {ramp(9, 6), 90, 60, true, ""}},
+       {0.0, 1.0, 3.0},
+       false});
+  EXPECT_GOLDEN(draw_sheet(sheet), "sheet_strips");
+}
+
+TEST(Sheet, HasColumnsAndCaptions) {
+  Sheet sheet{"Spectra", "", {"explicit", "implicit"}, 0.0, 0.0, 0, {}};
+  for (int row = 0; row < 2; ++row)
+    sheet.rows.push_back(
+        {"", {{ramp(5, 5), 100, 100, false, "1.0 s"}, {ramp(5, 5), 100, 100, false, "2.0 s"}}, {}, false});
+  EXPECT_GOLDEN(draw_sheet(sheet), "sheet_columns");
+}
+
+// A panel shown at its own size is the image itself, and enlarged without smoothing each pixel is a square.
+TEST(Sheet, KeepsPixels) {
+  const Image image = ramp(7, 5);
+  const Image page = draw_sheet({"", "", {}, 0.0, 0.0, 0, {{"", {{image, 21, 15, false, ""}}, {}, false}}});
+  for (int y = 0; y < 15; ++y)
+    for (int x = 0; x < 21; ++x)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_EQ(page.row(28 + y)[3 * (28 + x) + c], image.row(y / 3)[3 * (x / 3) + c]) << x << ", " << y;
+}
+
+Sheet timed_sheet(const std::vector<double>& times) {
+  Sheet sheet{"", "", {}, 0.0, 4.0, 400, {}};
+  sheet.rows.push_back({"", {}, times, false});
+  for (std::size_t p = 0; p < times.size(); ++p) {
+    Panel panel{Image(1, 1), 90, 20, false, ""};
+    panel.image.pixels[0] = static_cast<std::uint8_t>(p + 1);
+    sheet.rows[0].panels.push_back(panel);
+  }
+  return sheet;
+}
+
+// Left edges of the panels, from the margin: panel p is red p + 1 and else black.
+std::vector<int> left_edges_of(const Image& page, std::size_t panels) {
+  std::vector<int> left(panels, -1);
+  for (int x = page.width - 1; x >= 0; --x) {
+    const std::uint8_t* pixel = page.row(38) + 3 * x;
+    if (pixel[1] == 0 && pixel[2] == 0 && pixel[0] >= 1 && pixel[0] <= panels) left[pixel[0] - 1] = x - 28;
+  }
+  return left;
+}
+
+TEST(Sheet, PutsPanelsAtTheirTimes) {
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({0.0, 1.0, 2.5})), 3), (std::vector<int>{0, 100, 250}));
+}
+
+// 90 wide and 6 apart: those that would cover each other, or run over the axis' end at 400, make room.
+TEST(Sheet, KeepsCrowdedPanelsApart) {
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({0.0, 0.1, 2.0})), 3), (std::vector<int>{0, 96, 200}));
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({1.0, 3.5, 3.9})), 3), (std::vector<int>{100, 214, 310}));
+  EXPECT_EQ(left_edges_of(draw_sheet(timed_sheet({3.9, 1.0, 3.5})), 3), (std::vector<int>{310, 100, 214}));
+  const Image crowded = draw_sheet(timed_sheet({0, 0, 0, 0, 4}));
+  EXPECT_EQ(left_edges_of(crowded, 5), (std::vector<int>{0, 96, 192, 288, 384}));
+  EXPECT_EQ(crowded.width, 28 + 384 + 90 + 28);
+}
+
+TEST(Sheet, RefusesWhatCannotBeShown) {
+  Sheet sheet = timed_sheet({0.0, 1.0});
+  sheet.end = sheet.begin;
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0, 1.0});
+  sheet.rows[0].times.pop_back();
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0});
+  sheet.rows[0].panels[0].image = Image();
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+  sheet = timed_sheet({0.0});
+  sheet.rows[0].panels[0].height = 0;
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+}
+
+TEST(Sheet, RefusesToBeHuge) {
+  const Sheet sheet{"", "", {}, 0.0, 0.0, 0, {{"", {{ramp(2, 2), 20000, 10, true, ""}}, {}, false}}};
+  EXPECT_THROW(draw_sheet(sheet), InputError);
+}
+
+}  // namespace
+}  // namespace billow::render

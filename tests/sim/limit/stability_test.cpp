@@ -1,0 +1,478 @@
+// The step limits of filtered schemes: closed forms where filter and springs commute, dense eigenvalues where not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "sim/body/momenta.h"
+#include "sim/force/spring_force.h"
+#include "sim/limit/certificate.h"
+#include "sim/limit/filtered_eigenvalue.h"
+#include "sim/limit/paper_step.h"
+#include "sim/limit/stiffness_scale.h"
+#include "sim/linear/power_method.h"
+#include "sim/step/step.h"
+#include "tests/support/evaluations.h"
+#include "tests/support/step_matrix.h"
+#include "tests/support/structures.h"
+
+namespace billow::sim {
+namespace {
+
+using test::grid;
+using test::LinearStep;
+using test::ring;
+using test::with_uneven_masses;
+
+constexpr double pi = std::numbers::pi;
+constexpr IntegratorOptions exact_solver = {.linear_solver = LinearSolver::cholesky};
+
+/// A ring whose springs act on each axis alike, f_i = k (x_{i-1} - 2 x_i + x_{i+1}): its stiffness and every filter are
+/// circulant, so they share the modes cos(p theta i), theta = 2 pi / n.
+class Ring {
+ public:
+  static constexpr int n = 16;
+  static constexpr double mass = 0.3, stiffness = 70.0;
+
+  double omega(int p) const { return 2.0 * std::sqrt(stiffness / mass) * std::sin(p * pi / n); }
+  /// The plain exponential filter's response to mode p: neighbours at distance 1.
+  double plain_response(double lambda, int p) const {
+    const double e = std::exp(-lambda);
+    return (1.0 + 2.0 * e * std::cos(2.0 * pi * p / n)) / (1.0 + 2.0 * e);
+  }
+  double response(const FilterOptions& options, int p) const {
+    const double plain = plain_response(options.lambda, p);
+    return std::pow(options.form == FilterForm::symmetric ? 0.5 * (1.0 + plain) : plain, options.passes);
+  }
+
+  /// Spectral radius of the step in the plane of mode p, which it never leaves.
+  double radius(const LinearStep& step, int p, double h) const {
+    Eigen::VectorXd mode(n);
+    for (int i = 0; i < n; ++i) mode(i) = std::cos(2.0 * pi * p * i / n);
+    Eigen::Matrix2d map;
+    for (int c = 0; c < 2; ++c) {
+      State state{Eigen::MatrixX3d::Zero(n, 3), Eigen::MatrixX3d::Zero(n, 3), 0.0};
+      (c == 0 ? state.position : state.velocity).col(0) = mode * (c == 0 ? 1.0 : omega(p));
+      step(state, h);
+      map(0, c) = mode.dot(state.position.col(0)) / mode.squaredNorm();
+      map(1, c) = mode.dot(state.velocity.col(0)) / mode.squaredNorm() / omega(p);
+      EXPECT_LT((state.position.col(0) - map(0, c) * mode).norm(), 1e-10 * (1.0 + std::abs(map(0, c))));
+    }
+    return test::spectral_radius(map);
+  }
+
+  /// Largest h for which mode p does not grow; 0 if it grows at every step.
+  double limit(const LinearStep& step, int p) const {
+    const auto stable = [&](double h) { return radius(step, p, h) <= 1.0 + 1e-9; };
+    double low = 1e-3 / omega(p), high = 100.0 / omega(p);
+    if (!stable(low)) return 0.0;
+    EXPECT_FALSE(stable(high));
+    while (high - low > 1e-7 * high) {
+      const double middle = 0.5 * (low + high);
+      (stable(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+
+  Structure structure = ring(n, mass, stiffness);
+  Linearisation linearisation = linearise_any_shape(structure);
+  Forces forces = linear_forces(structure, linearisation);
+};
+
+using LimitFormula = std::function<double(double g)>;  // limit of s = omega^2 h^2
+
+std::vector<FilterOptions> filters_that_pass_every_mode_upright(FilterTarget target) {
+  return {{.lambda = 1.0, .target = target},
+          {.lambda = 2.5, .target = target},
+          {.lambda = 0.5, .form = FilterForm::symmetric, .target = target},
+          {.lambda = 1.0, .form = FilterForm::symmetric, .target = target, .passes = 3}};
+}
+
+void expect_limit(Method method, FilterTarget target, const LimitFormula& formula) {
+  const Ring ring;
+  for (const FilterOptions& options : filters_that_pass_every_mode_upright(target)) {
+    const Filter filter(ring.structure, options);
+    Step step(ring.forces, method, exact_solver, &filter, &ring.structure.rest_position);
+    for (int p = 1; p <= Ring::n / 2; ++p) {
+      const double expected = std::sqrt(formula(ring.response(options, p))) / ring.omega(p);
+      EXPECT_NEAR(ring.limit(std::ref(step), p), expected, 1e-4 * expected)
+          << name(method) << ", mode " << p << ", lambda = " << options.lambda;
+    }
+  }
+}
+
+TEST(RingLimit, OfFBEulerIsFour) {
+  const Ring ring;
+  Step step(ring.forces, Method::fb_euler, {}, nullptr);
+  for (int p = 1; p <= Ring::n / 2; ++p)
+    EXPECT_NEAR(ring.limit(std::ref(step), p), 2.0 / ring.omega(p), 2e-4 / ring.omega(p));
+}
+
+TEST(RingLimit, OfFBEulerWithAForceFilterIsFourOverG) {
+  expect_limit(Method::fb_euler, FilterTarget::force, [](double g) { return 4.0 / g; });
+}
+
+TEST(RingLimit, OfFBEulerWithAVelocityFilterIsTwoOnePlusGOverG) {
+  expect_limit(Method::fb_euler, FilterTarget::velocity, [](double g) { return 2.0 * (1.0 + g) / g; });
+}
+
+TEST(RingLimit, OfForwardEulerWithAVelocityFilterIsOneMinusGOverG) {
+  expect_limit(Method::forward_euler, FilterTarget::velocity, [](double g) { return (1.0 - g) / g; });
+}
+
+TEST(RingLimit, OfVerletIsThatOfFBEuler) {
+  expect_limit(Method::verlet, FilterTarget::force, [](double g) { return 4.0 / g; });
+  expect_limit(Method::verlet, FilterTarget::velocity, [](double g) { return 2.0 * (1.0 + g) / g; });
+}
+
+TEST(RingLimit, OfRungeKuttaWithAForceFilterIsEightOverG) {
+  expect_limit(Method::rk4, FilterTarget::force, [](double g) { return 8.0 / g; });
+}
+
+// The fifth row of the table: worse than no filter, which is why billow filters before.
+TEST(RingLimit, WithVelocitiesFilteredAfterThePositionsIsTwoOnePlusG) {
+  const Ring ring;
+  for (const FilterOptions& options : filters_that_pass_every_mode_upright(FilterTarget::velocity)) {
+    const Filter filter(ring.structure, options);
+    Step unfiltered(ring.forces, Method::fb_euler, {}, nullptr);
+    const LinearStep step = [&](State& state, double h) {
+      unfiltered(state, h);
+      test::apply(filter, ring.structure.rest_position, 0.0, state.velocity);
+    };
+    for (int p = 1; p <= Ring::n / 2; ++p) {
+      const double expected = std::sqrt(2.0 * (1.0 + ring.response(options, p))) / ring.omega(p);
+      EXPECT_NEAR(ring.limit(step, p), expected, 1e-4 * expected);
+      EXPECT_LT(ring.limit(step, p), 2.0 / ring.omega(p));
+    }
+  }
+}
+
+TEST(RingLimit, OfForwardEulerAloneDoesNotExist) {
+  const Ring ring;
+  Step step(ring.forces, Method::forward_euler, {}, nullptr);
+  for (int p = 1; p <= Ring::n / 2; ++p) EXPECT_EQ(ring.limit(std::ref(step), p), 0.0);
+}
+
+// g < 0: the filter turns the mode around, and each step pushes it on.
+TEST(RingLimit, DoesNotExistForAModeThatTheFilterTurnsAround) {
+  const Ring ring;
+  for (const FilterTarget target : {FilterTarget::velocity, FilterTarget::force}) {
+    const FilterOptions options{.lambda = 0.5, .target = target};
+    ASSERT_LT(ring.response(options, Ring::n / 2), -0.05);
+    const Filter filter(ring.structure, options);
+    Step step(ring.forces, Method::fb_euler, {}, &filter, &ring.structure.rest_position);
+    EXPECT_EQ(ring.limit(std::ref(step), Ring::n / 2), 0.0);
+  }
+}
+
+CertifiedStep certified(const Structure& structure, const Linearisation& linearisation, Method method,
+                        const Filter* filter) {
+  return certified_step(structure, linearisation, structure.rest_position, method, {}, filter);
+}
+
+CertifiedStep certified_at_rest(const Structure& structure, Method method, const Filter* filter) {
+  return certified(structure, linearise_at_rest(structure), method, filter);
+}
+
+TEST(Certificate, FindsTheLeastOfTheRingsLimits) {
+  const Ring ring;
+  for (const FilterTarget target : {FilterTarget::force, FilterTarget::velocity})
+    for (const FilterOptions& options : filters_that_pass_every_mode_upright(target)) {
+      double least = HUGE_VAL;
+      for (int p = 1; p <= Ring::n / 2; ++p) {
+        const double g = ring.response(options, p);
+        least =
+            std::min(least, std::sqrt(target == FilterTarget::force ? 4.0 / g : 2.0 * (1.0 + g) / g) / ring.omega(p));
+      }
+      const Filter filter(ring.structure, options);
+      for (const Method method : {Method::fb_euler, Method::verlet})
+        EXPECT_NEAR(certified(ring.structure, ring.linearisation, method, &filter).step, least, 0.002 * least)
+            << name(method) << ", lambda = " << options.lambda;
+    }
+}
+
+TEST(Certificate, GivesNothingToAFilterThatTurnsModesAround) {
+  const Ring ring;
+  const double unit = 2.0 / ring.omega(Ring::n / 2);
+  const Filter force(ring.structure, {.lambda = 0.5, .target = FilterTarget::force});
+  EXPECT_EQ(certified(ring.structure, ring.linearisation, Method::fb_euler, &force).step, 0.0);
+  // Growth in a velocity filter is of second order in h, so it drowns in the tolerance of the smallest steps.
+  const Filter velocity(ring.structure, {.lambda = 0.5});
+  EXPECT_LT(certified(ring.structure, ring.linearisation, Method::fb_euler, &velocity).step, 0.1 * unit);
+}
+
+// With friction, x'' = -omega^2 x - gamma x' is stable under FB Euler iff omega^2 h^2 + 2 gamma h <= 4, and under
+// forward Euler iff h <= gamma / omega^2 (while gamma h <= 2). Forward Euler then grows so slowly that the tolerance
+// shows.
+TEST(Certificate, KnowsWhatFrictionCostsFBEulerAndGivesForwardEuler) {
+  Ring ring;
+  const double omega = ring.omega(Ring::n / 2);
+  for (const double gamma : {0.4 * omega, 0.7 * omega, 1.0 * omega}) {
+    ring.structure.body[0].friction = gamma * Ring::mass;
+    const Linearisation linearisation = linearise_any_shape(ring.structure);
+    const double symplectic = (std::sqrt(gamma * gamma + 4.0 * omega * omega) - gamma) / (omega * omega);
+    const double explicit_euler = gamma / (omega * omega);
+    EXPECT_NEAR(certified(ring.structure, linearisation, Method::fb_euler, nullptr).step, symplectic,
+                0.002 * symplectic);
+    const double slack = 2.0 * CertificateOptions{}.growth_tolerance() * omega * omega / (gamma * gamma);
+    EXPECT_NEAR(certified(ring.structure, linearisation, Method::forward_euler, nullptr).step, explicit_euler,
+                (0.002 + slack) * explicit_euler);
+  }
+}
+
+// Friction alone acts on a free body as a whole: gamma h <= 2.
+TEST(Certificate, SeesMotionsThatOnlyDampingActsOn) {
+  Ring ring;
+  const double omega = ring.omega(Ring::n / 2), gamma = 6.0 * omega;
+  ring.structure.body[0].friction = gamma * Ring::mass;
+  EXPECT_NEAR(certified(ring.structure, linearise_at_rest(ring.structure), Method::forward_euler, nullptr).step,
+              2.0 / gamma, 0.002 * 2.0 / gamma);
+}
+
+/// A small sheet without any symmetry to help.
+Structure crooked_sheet(std::vector<int> pinned) {
+  Structure structure = with_uneven_masses(grid({.width = 4,
+                                                 .height = 3,
+                                                 .spacing = 0.1,
+                                                 .mass = 0.02,
+                                                 .structural = 90.0,
+                                                 .shear = 60.0,
+                                                 .bend = 25.0,
+                                                 .pinned = std::move(pinned)}),
+                                           0.5);
+  for (int s = 0; s < structure.springs(); ++s) structure.stiffness(s) *= 1.0 + 0.3 * std::sin(3.0 * s);
+  return structure;
+}
+
+struct Case {
+  Method method;
+  std::optional<FilterOptions> filter;
+};
+
+std::vector<Case> explicit_cases() {
+  std::vector<Case> cases;
+  for (const Method method : {Method::forward_euler, Method::fb_euler, Method::verlet, Method::rk4}) {
+    cases.push_back({method, std::nullopt});
+    for (const FilterTarget target : {FilterTarget::velocity, FilterTarget::force})
+      for (const FilterForm form : {FilterForm::plain, FilterForm::symmetric, FilterForm::conserving})
+        cases.push_back({method, FilterOptions{.form = form, .target = target}});
+  }
+  return cases;
+}
+
+// The certificate against eigenvalues of the step's matrix: stable up to it, unstable just beyond.
+void expect_certified_by_eigenvalues(const Structure& structure, const Case& c) {
+  const Linearisation linearisation = linearise_at_rest(structure);
+  const Forces forces = linear_forces(structure, linearisation);
+  const std::optional<Filter> filter = c.filter ? std::make_optional<Filter>(structure, *c.filter) : std::nullopt;
+  const Filter* f = filter ? &*filter : nullptr;
+  Step step(forces, c.method, {}, f, &structure.rest_position);
+  const double unit = 2.0 / std::sqrt(max_eigenvalue(structure, linearisation.stiffness).value);
+  const auto radius = [&](double h) {
+    return test::spectral_radius(test::step_matrix(structure, std::ref(step), h, 0.5 * unit));
+  };
+  const CertifiedStep result = certified(structure, linearisation, c.method, f);
+  ASSERT_FALSE(result.unlimited);
+  const double tolerance = CertificateOptions{}.growth_tolerance();
+  for (const double share : {0.25, 0.5, 0.75, 0.9, 1.0})
+    EXPECT_LE(radius(share * result.step), 1.0 + tolerance) << share << " of " << result.step / unit << " units";
+  const double beyond = result.step > 0.0 ? 1.01 * result.step : 0.06 * unit;
+  EXPECT_GT(radius(beyond), 1.0 + 1e-6) << result.step / unit << " units";
+}
+
+TEST(Certificate, AgreesWithDenseEigenvaluesForEveryExplicitSchemeAndFilter) {
+  for (const std::vector<int>& pinned : {std::vector<int>{0, 3}, {}}) {
+    const Structure structure = crooked_sheet(pinned);
+    for (const Case& c : explicit_cases()) {
+      SCOPED_TRACE(testing::Message() << name(c.method) << ", " << pinned.size() << " pins, filter "
+                                      << (c.filter ? static_cast<int>(c.filter->form) : -1) << " of target "
+                                      << (c.filter ? static_cast<int>(c.filter->target) : -1));
+      expect_certified_by_eigenvalues(structure, c);
+    }
+  }
+}
+
+TEST(Certificate, AgreesWithDenseEigenvaluesWithDamping) {
+  for (const DampingModel model : {DampingModel::projected, DampingModel::spring}) {
+    Structure structure = crooked_sheet({0, 3});
+    structure.damping.setConstant(0.4);
+    structure.body[0].damping_model = model;
+    structure.body[0].friction = 0.1;
+    for (const Case& c : explicit_cases()) {
+      if (c.filter && c.filter->form != FilterForm::symmetric) continue;
+      SCOPED_TRACE(testing::Message() << name(c.method) << ", damping " << static_cast<int>(model) << ", target "
+                                      << (c.filter ? static_cast<int>(c.filter->target) : -1));
+      expect_certified_by_eigenvalues(structure, c);
+    }
+  }
+}
+
+/// Particles apart from each other, x'' = -omega^2 x + 2 epsilon omega x' each.
+struct Oscillators {
+  struct Swing {
+    double omega, epsilon;
+  };
+  explicit Oscillators(const std::vector<Swing>& swings) {
+    for (int i = 0; i < 4; ++i) {
+      const Swing& swing = swings[static_cast<std::size_t>(i) % swings.size()];
+      linearisation.stiffness.add_diagonal(i, structure.mass(i) * swing.omega * swing.omega);
+      linearisation.damping.add_diagonal(i, -2.0 * structure.mass(i) * swing.epsilon * swing.omega);
+    }
+  }
+  /// Per step of RK4 with z = omega h: |1 + s + s^2/2 + s^3/6 + s^4/24| - 1, s = z (epsilon + i sqrt(1 - epsilon^2)).
+  static double growth(double z, double epsilon) {
+    const std::complex<double> s = z * std::complex<double>(epsilon, std::sqrt(1.0 - epsilon * epsilon));
+    return std::abs(1.0 + s * (1.0 + s / 2.0 * (1.0 + s / 3.0 * (1.0 + s / 4.0)))) - 1.0;
+  }
+  double certified() const {
+    return certified_step(structure, linearisation, structure.rest_position, Method::rk4, {}, nullptr).step;
+  }
+  Structure structure = grid({.width = 2, .height = 2, .structural = 0.0, .shear = 0.0, .bend = 0.0});
+  Linearisation linearisation{structure};
+};
+
+// RK4 turns a motion that grows by epsilon z a step into one that grows by about epsilon z - z^6 / 144: most at z^5 =
+// 24 epsilon, and not at all at larger steps. Such a motion beside a faster one, whose limit of z = 2 sqrt 2 is all
+// that a look at large steps finds: it grows at half or at three quarters of that limit, and slowly enough for a short
+// trial to miss it.
+TEST(Certificate, LooksForGrowthAtHalfAndAtThreeQuartersOfTheStep) {
+  const double tolerance = CertificateOptions{}.growth_tolerance();  // e in half of the 500 steps of a trial of RK4
+  for (const auto& [share, most] : {std::pair{0.5, 2.2 * tolerance}, {0.75, 1.15 * tolerance}}) {
+    SCOPED_TRACE(share);
+    const double peak = std::pow(24.0 * 1.2 * most, 1.0 / 6.0), epsilon = 1.2 * most / peak;
+    const double limit = 2.0 * std::numbers::sqrt2, omega = peak / (share * limit);
+    for (const double part : {0.5, 0.75, 1.0})
+      EXPECT_EQ(Oscillators::growth(part * limit * omega, epsilon) > tolerance, part == share) << part;
+    const double step = Oscillators({{1.0, 0.0}, {omega, epsilon}}).certified();
+    EXPECT_GT(step, 0.0);
+    EXPECT_LT(step, 0.7 * limit);
+    for (const double part : {0.5, 0.75, 1.0})
+      EXPECT_LT(Oscillators::growth(part * step * omega, epsilon), 1.05 * tolerance) << part;
+    EXPECT_NEAR(Oscillators({{1.0, 0.0}}).certified(), limit, 0.002 * limit) << "without it";
+  }
+}
+
+// The same in a filter's doing: on uneven springs with an uneven lambda, F M^-1 K has complex eigenvalues, and its mode
+// grows at half of the step that is stable by itself.
+TEST(Certificate, AgreesWithDenseEigenvaluesWhereRungeKuttaGrowsAtSmallerStepsOnly) {
+  Structure structure = ring(6, 1.0, 1.0);
+  FilterOptions options{.target = FilterTarget::force, .particle_lambda = Eigen::VectorXd(6)};
+  for (int i = 0; i < 6; ++i) {
+    structure.stiffness(i) = 1.0 + 0.9 * std::sin(7.0 * i);
+    options.particle_lambda(i) = 1.0 + 0.9 * std::sin(4.0 * i);
+  }
+  const Filter filter(structure, options);
+  const Linearisation linearisation = linearise_any_shape(structure);
+  const Forces forces = linear_forces(structure, linearisation);
+  Step step(forces, Method::rk4, {}, &filter, &structure.rest_position);
+  const double unit = 2.0 / std::sqrt(max_eigenvalue(structure, linearisation.stiffness).value);
+  const auto growth = [&](double h) {
+    return test::spectral_radius(test::step_matrix(structure, std::ref(step), h, 0.5 * unit)) - 1.0;
+  };
+  const double tolerance = CertificateOptions{}.growth_tolerance();
+  EXPECT_LT(growth(2.38 * unit), tolerance);
+  EXPECT_GT(growth(1.19 * unit), 1.5 * tolerance);
+  const double certified_limit = certified(structure, linearisation, Method::rk4, &filter).step;
+  for (const double share : {0.25, 0.5, 0.75, 1.0})
+    EXPECT_LT(growth(share * certified_limit), 1.2 * tolerance)
+        << share << " of " << certified_limit / unit << " units";
+  EXPECT_GT(certified_limit, 0.3 * unit);
+}
+
+TEST(Certificate, IsUnlimitedForTheImplicitSchemes) {
+  const Structure structure = crooked_sheet({0, 3});
+  const Filter filter(structure, {.form = FilterForm::symmetric});
+  for (const Method method : {Method::backward_euler, Method::imex})
+    for (const Filter* f : {static_cast<const Filter*>(nullptr), &filter})
+      EXPECT_TRUE(certified_at_rest(structure, method, f).unlimited) << name(method);
+}
+
+TEST(Certificate, IsUnlimitedWithoutStiffness) {
+  EXPECT_TRUE(certified_at_rest(grid({.width = 3, .height = 3, .structural = 0.0, .shear = 0.0, .bend = 0.0}),
+                                Method::fb_euler, nullptr)
+                  .unlimited);
+}
+
+TEST(Certificate, ScalesWithOneOverTheRootOfTheStiffness) {
+  Structure soft = crooked_sheet({0, 3}), stiff = soft;
+  stiff.stiffness *= 400.0;
+  for (const Case& c : {Case{Method::fb_euler, std::nullopt}, Case{Method::fb_euler, FilterOptions{}},
+                        Case{Method::rk4, FilterOptions{.form = FilterForm::symmetric}}}) {
+    const auto limit = [&](const Structure& structure) {
+      const std::optional<Filter> filter = c.filter ? std::make_optional<Filter>(structure, *c.filter) : std::nullopt;
+      return certified_at_rest(structure, c.method, filter ? &*filter : nullptr).step;
+    };
+    EXPECT_NEAR(limit(soft) / limit(stiff), 20.0, 0.02);
+  }
+}
+
+TEST(Certificate, IsTheSameTwice) {
+  const Structure structure = crooked_sheet({0, 3});
+  const Filter filter(structure, {});
+  EXPECT_EQ(certified_at_rest(structure, Method::fb_euler, &filter).step,
+            certified_at_rest(structure, Method::fb_euler, &filter).step);
+}
+
+/// The sheet of docs/method.md: 10 x 10, side 1, two corners pinned, k0 = 1e6.
+Structure reference_sheet() {
+  Structure structure = grid({.width = 10, .height = 10, .spacing = 1.0 / 9.0, .pinned = {0, 9}});
+  scale_stiffness(structure, 1e6);
+  return structure;
+}
+
+// Ratios to the unfiltered limit of 2 ms, from dense eigenvalues computed independently of this program.
+TEST(Certificate, ReproducesTheReferenceRatiosOfTheSheet) {
+  const Structure structure = reference_sheet();
+  const StiffnessMatrix stiffness = linearise_at_rest(structure).stiffness;
+  EXPECT_NEAR(certified_at_rest(structure, Method::fb_euler, nullptr).step, 0.002, 0.005 * 0.002);
+  for (const auto& [form, paper, exact] :
+       {std::tuple{FilterForm::symmetric, 1.321, 1.172}, {FilterForm::plain, 1.881, 1.598}}) {
+    const Filter filter(structure, {.form = form});
+    const double alpha = filtered_eigenvalue(structure, stiffness, filter).value;
+    EXPECT_NEAR(paper_step(Method::fb_euler, alpha).value() / 0.002, paper, 0.005 * paper);
+    EXPECT_NEAR(certified_at_rest(structure, Method::fb_euler, &filter).step / 0.002, exact, 0.005 * exact);
+  }
+}
+
+// Algorithm 1 is exact for a force filter and optimistic for a velocity filter.
+TEST(PaperLimit, HoldsForForcesOnly) {
+  const Structure structure = reference_sheet();
+  const StiffnessMatrix stiffness = linearise_at_rest(structure).stiffness;
+  for (const FilterForm form : {FilterForm::symmetric, FilterForm::conserving}) {
+    const Filter force(structure, {.form = form, .target = FilterTarget::force}), velocity(structure, {.form = form});
+    const double paper = paper_step(Method::fb_euler, filtered_eigenvalue(structure, stiffness, force).value).value();
+    EXPECT_NEAR(certified_at_rest(structure, Method::fb_euler, &force).step, paper, 0.005 * paper);
+    EXPECT_LT(certified_at_rest(structure, Method::fb_euler, &velocity).step, 0.95 * paper);
+  }
+}
+
+/// Highest total energy over the first, in units of the energy that falling by one side releases.
+double energy_gain(const Structure& structure, const Filter& filter, double h, double duration) {
+  const Forces forces(structure, {0.0, -9.81, 0.0});
+  const auto energy = [&](const State& s) { return kinetic_energy(structure, s) + forces.potential_energy(s); };
+  Step step(forces, Method::fb_euler, {}, &filter);
+  State state = rest_state(structure);
+  const double start = energy(state);
+  double highest = start;
+  for (int k = 0; k * h < duration; ++k) {
+    step(state, h);
+    highest = std::max(highest, energy(state));
+    if (!(highest < 1e6)) break;
+  }
+  return (highest - start) / (9.81 * structure.mass.sum());
+}
+
+TEST(Certificate, ForAnyShapeHoldsForASheetThatFallsAndFolds) {
+  const Structure structure = reference_sheet();
+  const Linearisation any_shape = linearise_any_shape(structure);
+  for (const FilterTarget target : {FilterTarget::velocity, FilterTarget::force}) {
+    const Filter filter(structure, {.form = FilterForm::symmetric, .target = target});
+    const double limit = certified(structure, any_shape, Method::fb_euler, &filter).step;
+    EXPECT_LT(energy_gain(structure, filter, 0.98 * limit, 4.0), 0.01) << static_cast<int>(target);
+    EXPECT_GT(energy_gain(structure, filter, 2.0 * limit, 4.0), 1.0) << static_cast<int>(target);
+  }
+}
+
+}  // namespace
+}  // namespace billow::sim
