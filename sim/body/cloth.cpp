@@ -1,6 +1,8 @@
 // Mesh -> Structure: masses, springs with their material, pins.
 #include "sim/body/cloth.h"
 
+#include <Eigen/Geometry>
+
 #include "base/error.h"
 #include "sim/body/cloth_springs.h"
 #include "sim/mesh/regular_values.h"
