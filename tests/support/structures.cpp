@@ -60,6 +60,17 @@ sim::Structure fixed_chain(const ChainOptions& o) {
   return assembled(position, o.mass, pinned, springs);
 }
 
+sim::Structure light_cloth(int width, int height, std::vector<int> pinned) {
+  return grid({.width = width,
+               .height = height,
+               .spacing = 0.1,
+               .mass = 0.01,
+               .structural = 100.0,
+               .shear = 70.0,
+               .bend = 30.0,
+               .pinned = std::move(pinned)});
+}
+
 sim::Structure oscillator(double mass, double stiffness, double rest_length) {
   return fixed_chain(
       {.free_particles = 1, .mass = mass, .stiffness = stiffness, .rest_length = rest_length, .second_wall = false});

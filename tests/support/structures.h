@@ -28,6 +28,9 @@ struct GridOptions {
 };
 sim::Structure grid(const GridOptions& options);
 
+/// A grid of light cloth: particles of 10 g every 0.1 m, springs of 100, 70 and 30 N/m.
+sim::Structure light_cloth(int width, int height, std::vector<int> pinned = {});
+
 /// Two particles, one spring along x: the first pinned, the second free.
 sim::Structure oscillator(double mass, double stiffness, double rest_length = 1.0);
 

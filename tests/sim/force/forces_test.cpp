@@ -37,18 +37,8 @@ Eigen::MatrixX3d force_of(const Structure& structure, const State& state) {
   return force_of(structure, state, Eigen::Vector3d::Zero());
 }
 
-Eigen::MatrixX3d minus_energy_gradient(const Forces& forces, State state, double d) {
-  Eigen::MatrixX3d gradient(state.position.rows(), 3);
-  for (int i = 0; i < gradient.rows(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = state.position(i, axis);
-      state.position(i, axis) = x + d;
-      const double above = forces.potential_energy(state);
-      state.position(i, axis) = x - d;
-      gradient(i, axis) = (forces.potential_energy(state) - above) / (2.0 * d);
-      state.position(i, axis) = x;
-    }
-  return gradient;
+Eigen::MatrixX3d minus_energy_gradient(const Forces& forces, const State& state, double d) {
+  return test::minus_gradient([&](const State& at) { return forces.potential_energy(at); }, state, d);
 }
 
 TEST(Forces, AreMinusTheGradientOfTheEnergy) {

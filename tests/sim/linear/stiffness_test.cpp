@@ -3,51 +3,31 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <stdexcept>
 
 #include "base/random.h"
 #include "sim/force/forces.h"
 #include "sim/force/spring_force.h"
 #include "tests/support/evaluations.h"
+#include "tests/support/step_matrix.h"
 #include "tests/support/structures.h"
 
 namespace billow::sim {
 namespace {
 
-using test::grid;
+using test::least_eigenvalue;
 using test::shaken_state;
 
 Structure sheet(SpringModel model, std::vector<int> pinned = {}) {
-  Structure structure = grid({.width = 4,
-                              .height = 3,
-                              .spacing = 0.1,
-                              .mass = 0.01,
-                              .structural = 100.0,
-                              .shear = 70.0,
-                              .bend = 30.0,
-                              .pinned = std::move(pinned)});
+  Structure structure = test::light_cloth(4, 3, std::move(pinned));
   structure.body[0].spring_model = model;
   structure.body[0].buckling_rigidity = 1e-4;
   return structure;
 }
 
-// Column 3 i + axis: minus the change of all forces with one entry of the position or the velocity.
-Eigen::MatrixXd minus_force_differences(const Forces& forces, State state, Eigen::MatrixX3d State::*field, double d) {
-  const int n = forces.structure().particles();
-  Eigen::MatrixXd jacobian(3 * n, 3 * n);
-  Eigen::MatrixX3d above, below;
-  for (int c = 0; c < 3 * n; ++c) {
-    double& entry = (state.*field)(c / 3, c % 3);
-    const double value = entry;
-    entry = value + d;
-    above = test::force_of(forces, state);
-    entry = value - d;
-    below = test::force_of(forces, state);
-    entry = value;
-    for (int r = 0; r < 3 * n; ++r) jacobian(r, c) = (below(r / 3, r % 3) - above(r / 3, r % 3)) / (2.0 * d);
-  }
-  return jacobian;
+Eigen::MatrixXd minus_force_differences(const Forces& forces, const State& state, Eigen::MatrixX3d State::*field,
+                                        double d) {
+  return test::minus_slope([&](const State& at) { return test::force_of(forces, at); }, state, field, d);
 }
 
 Eigen::MatrixXd dense(const StiffnessMatrix& matrix) { return Eigen::MatrixXd(matrix.assemble(false)); }
@@ -92,10 +72,6 @@ TEST(Jacobian, ByPositionIsExactWithDampingAtRestAndWithRelativeDampingAlways) {
     EXPECT_LT((dense(forces.linearise(state, 1.0, 0.0, JacobianForm::exact)) - expected).norm(),
               1e-6 * expected.norm());
   }
-}
-
-double least_eigenvalue(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
 }
 
 TEST(Jacobian, DefiniteFormHasNoNegativeEigenvalueHoweverCompressed) {
@@ -281,7 +257,7 @@ TEST(LinearisationOfAnyShape, IsAnUpperBoundOverStates) {
     Structure structure = sheet(model);
     structure.body[0].buckling_rigidity = 4e-3;
     const Forces forces(structure, Eigen::Vector3d::Zero());
-    const Eigen::MatrixXd bound = dense(linearise_any_shape(structure).stiffness);
+    const Eigen::MatrixXd bound = dense(test::bound_of(structure, Shapes::any).stiffness);
     for (const double distance : {0.01, 0.1, 1.0, 100.0}) {
       const State state = shaken_state(structure, distance, 0.0);
       const Eigen::MatrixXd matrix = dense(forces.linearise(state, 1.0, 0.0, JacobianForm::definite));

@@ -17,14 +17,7 @@ using test::grid;
 using test::shaken_state;
 
 Structure sheet() {
-  Structure structure = grid({.width = 5,
-                              .height = 4,
-                              .spacing = 0.1,
-                              .mass = 0.01,
-                              .structural = 100.0,
-                              .shear = 70.0,
-                              .bend = 30.0,
-                              .pinned = {0, 4}});
+  Structure structure = test::light_cloth(5, 4, {0, 4});
   structure.damping.setConstant(0.05);
   structure.body[0].friction = 0.002;
   return structure;
@@ -66,18 +59,9 @@ TEST(BackwardEuler, SolvesTheEquationOfBaraffAndWitkin) {
   const Forces forces(structure, {0.0, -9.81, 0.0});
   State state = shaken_state(structure, 0.01, 1.0);
   state.position *= 1.6;
-  const int size = 3 * structure.particles();
-  Eigen::MatrixXd by_position(size, size), by_velocity(size, size);
-  Eigen::MatrixX3d above, below;
-  for (int c = 0; c < size; ++c)
-    for (Eigen::MatrixX3d State::*field : {&State::position, &State::velocity}) {
-      State moved = state;
-      (moved.*field)(c / 3, c % 3) += 1e-6;
-      above = test::force_of(forces, moved);
-      (moved.*field)(c / 3, c % 3) -= 2e-6;
-      below = test::force_of(forces, moved);
-      (field == &State::position ? by_position : by_velocity).col(c) = flattened(above - below) / 2e-6;
-    }
+  const auto force_at = [&](const State& at) { return test::force_of(forces, at); };
+  const Eigen::MatrixXd by_position = -test::minus_slope(force_at, state, &State::position, 1e-6);
+  const Eigen::MatrixXd by_velocity = -test::minus_slope(force_at, state, &State::velocity, 1e-6);
   const double h = 0.01;
   const Eigen::MatrixX3d force = test::force_of(forces, state);
   const Eigen::VectorXd change =

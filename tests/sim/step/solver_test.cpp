@@ -18,14 +18,7 @@ using test::shaken_state;
 using testing::HasSubstr;
 
 Structure sheet() {
-  Structure structure = grid({.width = 6,
-                              .height = 6,
-                              .spacing = 0.1,
-                              .mass = 0.01,
-                              .structural = 100.0,
-                              .shear = 70.0,
-                              .bend = 30.0,
-                              .pinned = {0, 5}});
+  Structure structure = test::light_cloth(6, 6, {0, 5});
   structure.body[0].name = "drape";
   return structure;
 }

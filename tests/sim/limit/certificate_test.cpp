@@ -1,4 +1,6 @@
-// The step limits of filtered schemes: closed forms where filter and springs commute, dense eigenvalues where not.
+// The certificate: closed forms where filter and springs commute, dense eigenvalues where not.
+#include "sim/limit/certificate.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,164 +9,23 @@
 
 #include "sim/body/momenta.h"
 #include "sim/force/spring_force.h"
-#include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
 #include "sim/limit/stiffness_scale.h"
 #include "sim/linear/power_method.h"
 #include "sim/step/step.h"
 #include "tests/support/evaluations.h"
+#include "tests/support/ring_of_modes.h"
 #include "tests/support/step_matrix.h"
 #include "tests/support/structures.h"
 
 namespace billow::sim {
 namespace {
 
+using test::bound_of;
 using test::grid;
-using test::LinearStep;
-using test::ring;
 using test::with_uneven_masses;
-
-constexpr double pi = std::numbers::pi;
-constexpr IntegratorOptions exact_solver = {.linear_solver = LinearSolver::cholesky};
-
-/// A ring whose springs act on each axis alike, f_i = k (x_{i-1} - 2 x_i + x_{i+1}): its stiffness and every filter are
-/// circulant, so they share the modes cos(p theta i), theta = 2 pi / n.
-class Ring {
- public:
-  static constexpr int n = 16;
-  static constexpr double mass = 0.3, stiffness = 70.0;
-
-  double omega(int p) const { return 2.0 * std::sqrt(stiffness / mass) * std::sin(p * pi / n); }
-  /// The plain exponential filter's response to mode p: neighbours at distance 1.
-  double plain_response(double lambda, int p) const {
-    const double e = std::exp(-lambda);
-    return (1.0 + 2.0 * e * std::cos(2.0 * pi * p / n)) / (1.0 + 2.0 * e);
-  }
-  double response(const FilterOptions& options, int p) const {
-    const double plain = plain_response(options.lambda, p);
-    return std::pow(options.form == FilterForm::symmetric ? 0.5 * (1.0 + plain) : plain, options.passes);
-  }
-
-  /// Spectral radius of the step in the plane of mode p, which it never leaves.
-  double radius(const LinearStep& step, int p, double h) const {
-    Eigen::VectorXd mode(n);
-    for (int i = 0; i < n; ++i) mode(i) = std::cos(2.0 * pi * p * i / n);
-    Eigen::Matrix2d map;
-    for (int c = 0; c < 2; ++c) {
-      State state{Eigen::MatrixX3d::Zero(n, 3), Eigen::MatrixX3d::Zero(n, 3), 0.0};
-      (c == 0 ? state.position : state.velocity).col(0) = mode * (c == 0 ? 1.0 : omega(p));
-      step(state, h);
-      map(0, c) = mode.dot(state.position.col(0)) / mode.squaredNorm();
-      map(1, c) = mode.dot(state.velocity.col(0)) / mode.squaredNorm() / omega(p);
-      EXPECT_LT((state.position.col(0) - map(0, c) * mode).norm(), 1e-10 * (1.0 + std::abs(map(0, c))));
-    }
-    return test::spectral_radius(map);
-  }
-
-  /// Largest h for which mode p does not grow; 0 if it grows at every step.
-  double limit(const LinearStep& step, int p) const {
-    const auto stable = [&](double h) { return radius(step, p, h) <= 1.0 + 1e-9; };
-    double low = 1e-3 / omega(p), high = 100.0 / omega(p);
-    if (!stable(low)) return 0.0;
-    EXPECT_FALSE(stable(high));
-    while (high - low > 1e-7 * high) {
-      const double middle = 0.5 * (low + high);
-      (stable(middle) ? low : high) = middle;
-    }
-    return low;
-  }
-
-  Structure structure = ring(n, mass, stiffness);
-  Linearisation linearisation = linearise_any_shape(structure);
-  Forces forces = linear_forces(structure, linearisation);
-};
-
-using LimitFormula = std::function<double(double g)>;  // limit of s = omega^2 h^2
-
-std::vector<FilterOptions> filters_that_pass_every_mode_upright(FilterTarget target) {
-  return {{.lambda = 1.0, .target = target},
-          {.lambda = 2.5, .target = target},
-          {.lambda = 0.5, .form = FilterForm::symmetric, .target = target},
-          {.lambda = 1.0, .form = FilterForm::symmetric, .target = target, .passes = 3}};
-}
-
-void expect_limit(Method method, FilterTarget target, const LimitFormula& formula) {
-  const Ring ring;
-  for (const FilterOptions& options : filters_that_pass_every_mode_upright(target)) {
-    const Filter filter(ring.structure, options);
-    Step step(ring.forces, method, exact_solver, &filter, &ring.structure.rest_position);
-    for (int p = 1; p <= Ring::n / 2; ++p) {
-      const double expected = std::sqrt(formula(ring.response(options, p))) / ring.omega(p);
-      EXPECT_NEAR(ring.limit(std::ref(step), p), expected, 1e-4 * expected)
-          << name(method) << ", mode " << p << ", lambda = " << options.lambda;
-    }
-  }
-}
-
-TEST(RingLimit, OfFBEulerIsFour) {
-  const Ring ring;
-  Step step(ring.forces, Method::fb_euler, {}, nullptr);
-  for (int p = 1; p <= Ring::n / 2; ++p)
-    EXPECT_NEAR(ring.limit(std::ref(step), p), 2.0 / ring.omega(p), 2e-4 / ring.omega(p));
-}
-
-TEST(RingLimit, OfFBEulerWithAForceFilterIsFourOverG) {
-  expect_limit(Method::fb_euler, FilterTarget::force, [](double g) { return 4.0 / g; });
-}
-
-TEST(RingLimit, OfFBEulerWithAVelocityFilterIsTwoOnePlusGOverG) {
-  expect_limit(Method::fb_euler, FilterTarget::velocity, [](double g) { return 2.0 * (1.0 + g) / g; });
-}
-
-TEST(RingLimit, OfForwardEulerWithAVelocityFilterIsOneMinusGOverG) {
-  expect_limit(Method::forward_euler, FilterTarget::velocity, [](double g) { return (1.0 - g) / g; });
-}
-
-TEST(RingLimit, OfVerletIsThatOfFBEuler) {
-  expect_limit(Method::verlet, FilterTarget::force, [](double g) { return 4.0 / g; });
-  expect_limit(Method::verlet, FilterTarget::velocity, [](double g) { return 2.0 * (1.0 + g) / g; });
-}
-
-TEST(RingLimit, OfRungeKuttaWithAForceFilterIsEightOverG) {
-  expect_limit(Method::rk4, FilterTarget::force, [](double g) { return 8.0 / g; });
-}
-
-// The fifth row of the table: worse than no filter, which is why billow filters before.
-TEST(RingLimit, WithVelocitiesFilteredAfterThePositionsIsTwoOnePlusG) {
-  const Ring ring;
-  for (const FilterOptions& options : filters_that_pass_every_mode_upright(FilterTarget::velocity)) {
-    const Filter filter(ring.structure, options);
-    Step unfiltered(ring.forces, Method::fb_euler, {}, nullptr);
-    const LinearStep step = [&](State& state, double h) {
-      unfiltered(state, h);
-      test::apply(filter, ring.structure.rest_position, 0.0, state.velocity);
-    };
-    for (int p = 1; p <= Ring::n / 2; ++p) {
-      const double expected = std::sqrt(2.0 * (1.0 + ring.response(options, p))) / ring.omega(p);
-      EXPECT_NEAR(ring.limit(step, p), expected, 1e-4 * expected);
-      EXPECT_LT(ring.limit(step, p), 2.0 / ring.omega(p));
-    }
-  }
-}
-
-TEST(RingLimit, OfForwardEulerAloneDoesNotExist) {
-  const Ring ring;
-  Step step(ring.forces, Method::forward_euler, {}, nullptr);
-  for (int p = 1; p <= Ring::n / 2; ++p) EXPECT_EQ(ring.limit(std::ref(step), p), 0.0);
-}
-
-// g < 0: the filter turns the mode around, and each step pushes it on.
-TEST(RingLimit, DoesNotExistForAModeThatTheFilterTurnsAround) {
-  const Ring ring;
-  for (const FilterTarget target : {FilterTarget::velocity, FilterTarget::force}) {
-    const FilterOptions options{.lambda = 0.5, .target = target};
-    ASSERT_LT(ring.response(options, Ring::n / 2), -0.05);
-    const Filter filter(ring.structure, options);
-    Step step(ring.forces, Method::fb_euler, {}, &filter, &ring.structure.rest_position);
-    EXPECT_EQ(ring.limit(std::ref(step), Ring::n / 2), 0.0);
-  }
-}
+using Ring = test::RingOfModes;
 
 CertifiedStep certified(const Structure& structure, const Linearisation& linearisation, Method method,
                         const Filter* filter) {
@@ -178,7 +39,7 @@ CertifiedStep certified_at_rest(const Structure& structure, Method method, const
 TEST(Certificate, FindsTheLeastOfTheRingsLimits) {
   const Ring ring;
   for (const FilterTarget target : {FilterTarget::force, FilterTarget::velocity})
-    for (const FilterOptions& options : filters_that_pass_every_mode_upright(target)) {
+    for (const FilterOptions& options : test::filters_that_pass_every_mode_upright(target)) {
       double least = HUGE_VAL;
       for (int p = 1; p <= Ring::n / 2; ++p) {
         const double g = ring.response(options, p);
@@ -210,7 +71,7 @@ TEST(Certificate, KnowsWhatFrictionCostsFBEulerAndGivesForwardEuler) {
   const double omega = ring.omega(Ring::n / 2);
   for (const double gamma : {0.4 * omega, 0.7 * omega, 1.0 * omega}) {
     ring.structure.body[0].friction = gamma * Ring::mass;
-    const Linearisation linearisation = linearise_any_shape(ring.structure);
+    const Linearisation linearisation = bound_of(ring.structure, Shapes::any);
     const double symplectic = (std::sqrt(gamma * gamma + 4.0 * omega * omega) - gamma) / (omega * omega);
     const double explicit_euler = gamma / (omega * omega);
     EXPECT_NEAR(certified(ring.structure, linearisation, Method::fb_euler, nullptr).step, symplectic,
@@ -356,14 +217,14 @@ TEST(Certificate, LooksForGrowthAtHalfAndAtThreeQuartersOfTheStep) {
 // The same in a filter's doing: on uneven springs with an uneven lambda, F M^-1 K has complex eigenvalues, and its mode
 // grows at half of the step that is stable by itself.
 TEST(Certificate, AgreesWithDenseEigenvaluesWhereRungeKuttaGrowsAtSmallerStepsOnly) {
-  Structure structure = ring(6, 1.0, 1.0);
+  Structure structure = test::ring(6, 1.0, 1.0);
   FilterOptions options{.target = FilterTarget::force, .particle_lambda = Eigen::VectorXd(6)};
   for (int i = 0; i < 6; ++i) {
     structure.stiffness(i) = 1.0 + 0.9 * std::sin(7.0 * i);
     options.particle_lambda(i) = 1.0 + 0.9 * std::sin(4.0 * i);
   }
   const Filter filter(structure, options);
-  const Linearisation linearisation = linearise_any_shape(structure);
+  const Linearisation linearisation = bound_of(structure, Shapes::any);
   const Forces forces = linear_forces(structure, linearisation);
   Step step(forces, Method::rk4, {}, &filter, &structure.rest_position);
   const double unit = 2.0 / std::sqrt(max_eigenvalue(structure, linearisation.stiffness).value);
@@ -465,7 +326,7 @@ double energy_gain(const Structure& structure, const Filter& filter, double h, d
 
 TEST(Certificate, ForAnyShapeHoldsForASheetThatFallsAndFolds) {
   const Structure structure = reference_sheet();
-  const Linearisation any_shape = linearise_any_shape(structure);
+  const Linearisation any_shape = bound_of(structure, Shapes::any);
   for (const FilterTarget target : {FilterTarget::velocity, FilterTarget::force}) {
     const Filter filter(structure, {.form = FilterForm::symmetric, .target = target});
     const double limit = certified(structure, any_shape, Method::fb_euler, &filter).step;
