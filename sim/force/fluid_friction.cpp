@@ -24,7 +24,8 @@ bool FluidFriction::add_bound(Shapes, Linearisation& bound) const {
 // The sweep knows one friction for each body.
 bool FluidFriction::join(FusedSweep& sweep) const {
   if (sweep.friction) return false;
-  return sweep.friction = true;
+  sweep.friction = true;
+  return true;
 }
 
 void add_friction(const Structure& structure, double weight, StiffnessMatrix& matrix) {

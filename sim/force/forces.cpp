@@ -1,6 +1,8 @@
 // The sum of the laws of force: in one sweep over the springs as far as they join it.
 #include "sim/force/forces.h"
 
+#include <algorithm>
+
 #include "base/huge_pages.h"
 #include "sim/force/fluid_friction.h"
 #include "sim/force/gravity.h"

@@ -168,13 +168,6 @@ void add_spring_bound(const Structure& structure, Shapes shapes, Linearisation& 
     }
 }
 
-Linearisation springs_and_friction(const Structure& structure, Shapes shapes) {
-  Linearisation bound(structure);
-  add_spring_bound(structure, shapes, bound);
-  add_friction(structure, 1.0, bound.damping);
-  return bound;
-}
-
 }  // namespace
 
 bool SpringForce::add_bound(Shapes shapes, Linearisation& bound) const {
@@ -182,8 +175,11 @@ bool SpringForce::add_bound(Shapes shapes, Linearisation& bound) const {
   return true;
 }
 
-Linearisation linearise_at_rest(const Structure& structure) { return springs_and_friction(structure, Shapes::rest); }
-
-Linearisation linearise_any_shape(const Structure& structure) { return springs_and_friction(structure, Shapes::any); }
+Linearisation linearise_at_rest(const Structure& structure) {
+  Linearisation bound(structure);
+  add_spring_bound(structure, Shapes::rest, bound);
+  add_friction(structure, 1.0, bound.damping);
+  return bound;
+}
 
 }  // namespace billow::sim

@@ -20,7 +20,9 @@ class SpringForce : public ForceLaw {
   double energy(const State& state) const override;
   void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
                          StiffnessMatrix& matrix) const override;
-  /// As linearise_at_rest and linearise_any_shape.
+  /// At rest every spring with its full stiffness along itself, whichever way its model would let it go slack. At any
+  /// shape with its steepest slope in all directions at once: while tensions stay below k l, a spring's true block
+  /// (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or crumple is stiffer than this.
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
   bool passive() const override { return true; }
   bool join(FusedSweep& sweep) const override;
@@ -34,13 +36,8 @@ class SpringForce : public ForceLaw {
   SpringPlan plan_;
 };
 
-/// Springs, their damping and friction about rest, every spring with its full stiffness along itself, whichever way its
-/// model would let it go slack: the stiffest that the structure can be at its rest shape.
+/// Springs, their damping and friction at rest: what Forces::bound comes to where nothing else acts, without laying the
+/// springs out for the passes.
 Linearisation linearise_at_rest(const Structure& structure);
-
-/// Their upper bound over every shape: each spring with its steepest slope in all directions at once. While tensions
-/// stay below k l, a spring's true block (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or
-/// crumple of the structure is stiffer than this.
-Linearisation linearise_any_shape(const Structure& structure);
 
 }  // namespace billow::sim
