@@ -86,7 +86,7 @@ void read_cloth(MapReader& body, const std::filesystem::path& folder, BodyDraft&
 void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft);
 void read_fish(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft);
 
-/// The commonest first: a body without a kind misses that one.
+/// In the order in which messages list them.
 inline constexpr BodyKindRow body_kinds[] = {{"cloth", read_cloth}, {"soft", read_soft}, {"fish", read_fish}};
 
 /// Gives the body its imported mesh: moved, its pins and variations found; throws InputError located in the scene.

@@ -14,7 +14,6 @@ void read_stiffness(KindMap& kind, ClothSpec& cloth) {
 }  // namespace
 
 void read_cloth(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
-  body.require("cloth");
   KindMap kind = kind_map(body, "cloth");
   ClothSpec cloth;
   cloth.options.name = draft.spec.name;

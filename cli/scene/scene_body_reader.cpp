@@ -20,7 +20,6 @@ void check_name(const std::string& name, const std::string& where) {
                                name.substr(0, max_name_length), max_name_length));
 }
 
-// A body without any of the kinds misses the commonest.
 const BodyKindRow& kind_of(const MapReader& body) {
   const BodyKindRow* kind = nullptr;
   for (const BodyKindRow& row : body_kinds) {
@@ -31,7 +30,12 @@ const BodyKindRow& kind_of(const MapReader& body) {
           fmt::format("a body is of one kind, and this one has '{}' and '{}'; make it two bodies", kind->key, row.key));
     kind = &row;
   }
-  return kind ? *kind : body_kinds[0];
+  if (!kind) {
+    std::vector<std::string_view> keys;
+    for (const BodyKindRow& row : body_kinds) keys.push_back(row.key);
+    fail_at(body.where(), fmt::format("a body needs a kind, one of the keys '{}'", fmt::join(keys, "', '")));
+  }
+  return *kind;
 }
 
 void read_texture(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {

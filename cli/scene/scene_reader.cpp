@@ -15,7 +15,7 @@ namespace {
 constexpr int format_version = 1;
 
 void read_version(MapReader& map) {
-  const Node& node = map.require("billow");
+  const Node& node = map.require("billow", "; begin it with 'billow: 1'");
   if (node.quoted || !is_word(node, std::to_string(format_version)))
     fail_at(node.where, fmt::format("billow, the version of the scene format, must be {0}: this billow reads version "
                                     "{0} only",

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t max_runs = 10'000;
 
 void read_version(MapReader& map) {
-  const Node& node = map.require("billow_study");
+  const Node& node = map.require("billow_study", "; begin it with 'billow_study: 1'");
   if (node.quoted || !is_word(node, "1"))
     fail_at(node.where, "billow_study, the version of the study format, must be 1: this billow reads version 1 only");
 }

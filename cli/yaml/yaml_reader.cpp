@@ -175,9 +175,9 @@ const Node* MapReader::find(std::string_view key, std::string_view hint_without_
   return entry->value.get();
 }
 
-const Node& MapReader::require(std::string_view key) const {
+const Node& MapReader::require(std::string_view key, std::string_view hint_without) const {
   const Node* node = find(key);
-  if (!node) fail_at(where_, fmt::format("{} needs the key '{}'", section_.name, key));
+  if (!node) fail_at(where_, fmt::format("{} needs the key '{}'{}", section_.name, key, hint_without));
   return *node;
 }
 

@@ -78,7 +78,7 @@ class MapReader {
   const std::string& where() const { return where_; }
   /// The value of `key`, null when the key is missing. Throws InputError on a key without a value.
   const Node* find(std::string_view key, std::string_view hint_without_value = "") const;
-  const Node& require(std::string_view key) const;
+  const Node& require(std::string_view key, std::string_view hint_without = "") const;
 
   double number(std::string_view key, std::optional<double> fallback = {});
   /// A number, or the key's one word for nothing, which is also the default.

@@ -38,7 +38,7 @@ TEST(SceneFaults, Keys) {
        "scene.yaml:9:7: duplicate key 'mass'; it was first given at scene.yaml:8:7"},
       {"coefficient: 0}", "coefficient: 0, coefficient: 1}",
        "scene.yaml:10:51: duplicate key 'coefficient'; it was first given at scene.yaml:10:35"},
-      {"billow: 1\n", "", "scene.yaml:1:1: the scene needs the key 'billow'"},
+      {"billow: 1\n", "", "scene.yaml:1:1: the scene needs the key 'billow'; begin it with 'billow: 1'"},
       {"      mesh: cloth.obj\n", "", "scene.yaml:7:7: cloth needs the key 'mesh'"},
       {"bodies:\n", "objects:\n",
        "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, water, "
@@ -233,7 +233,8 @@ TEST(SceneFaults, Bodies) {
       {"name: sheet", "name: ''", "scene.yaml:5:11: name is empty"},
       {"solver:\n", "  - name: sheet\n    cloth: {mesh: cloth.obj}\nsolver:\n",
        "scene.yaml:13:11: a second body named 'sheet'; the first is at scene.yaml:5:11"},
-      {"solver:\n", "  - colour: \"#ffffff\"\nsolver:\n", "scene.yaml:13:5: body needs the key 'cloth'"},
+      {"solver:\n", "  - colour: \"#ffffff\"\nsolver:\n",
+       "scene.yaml:13:5: a body needs a kind, one of the keys 'cloth', 'soft', 'fish'"},
       {"solver:\n", "  - sheet\nsolver:\n", "scene.yaml:13:5: body must be a map, not 'sheet'"},
       {"{corner: top_left}", "{}",
        "scene.yaml:11:14: a pin has one key, corner, vertices, box or group; this one has 0"},

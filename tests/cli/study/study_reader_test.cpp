@@ -79,7 +79,8 @@ TEST_F(StudyReader, WithoutAxesHasOneRun) {
 
 TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error("axes:", "axis:"), "study.yaml:5:1: unknown key 'axis' in the study; did you mean 'axes'?");
-  EXPECT_EQ(error("billow_study: 1\n", ""), "study.yaml:1:1: the study needs the key 'billow_study'");
+  EXPECT_EQ(error("billow_study: 1\n", ""),
+            "study.yaml:1:1: the study needs the key 'billow_study'; begin it with 'billow_study: 1'");
   EXPECT_EQ(error("scene: scene.yaml", "scene: sene.yaml"), "study.yaml:3:8: there is no scene file " +
                                                                 (folder_.path() / "sene.yaml").string() +
                                                                 "; the path is relative to the study's folder");
