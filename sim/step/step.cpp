@@ -8,19 +8,18 @@ namespace billow::sim {
 
 namespace {
 
-const Filter* filter_of(FilterTarget target, const Filter* filter) {
-  return filter && filter->options().target == target ? filter : nullptr;
+PlacedFilter filter_of(FilterTarget target, const Filter* filter, const Eigen::MatrixX3d* frozen_position) {
+  return {filter && filter->options().target == target ? filter : nullptr, frozen_position};
 }
 
 }  // namespace
 
 Step::Step(const Forces& forces, Method method, const IntegratorOptions& options, const Filter* filter,
            const Eigen::MatrixX3d* frozen_position)
-    : forces_(forces, filter_of(FilterTarget::force, filter), frozen_position),
+    : forces_(forces, filter_of(FilterTarget::force, filter, frozen_position)),
       integrator_(scheme(method).make(options)),
-      velocity_filter_(filter_of(FilterTarget::velocity, filter)),
-      frozen_position_(frozen_position) {
-  if (filter_of(FilterTarget::force, filter) && !is_explicit(method))
+      velocity_filter_(filter_of(FilterTarget::velocity, filter, frozen_position)) {
+  if (filter && filter->options().target == FilterTarget::force && !is_explicit(method))
     throw InputError("a force filter needs an explicit method; use 'target: velocity', or no filter, with " +
                      std::string(name(method)));
 }
@@ -32,10 +31,10 @@ void Step::operator()(State& state, double h) {
   const double time = state.time;
   const Move move = integrator_->integrate(forces_, state, h, velocity_);  // forces -> integrate
   if (velocity_filter_ && hooks_.empty() && move.by_old == 0.0 && move.by_new != 0.0) {
-    velocity_filter_->apply_and_move(position_for_filter(state), time, velocity_, move.by_new, state.velocity,
+    velocity_filter_->apply_and_move(velocity_filter_.position(state), time, velocity_, move.by_new, state.velocity,
                                      state.position, scratch_);
   } else {
-    if (velocity_filter_) velocity_filter_->apply(position_for_filter(state), time, velocity_, scratch_);
+    if (velocity_filter_) velocity_filter_->apply(velocity_filter_.position(state), time, velocity_, scratch_);
     for (const auto& hook : hooks_) hook->apply(state, move, velocity_);
     finish(state, move);
   }

@@ -40,14 +40,10 @@ class Step {
 
  private:
   void finish(State& state, const Move& move);
-  const Eigen::MatrixX3d& position_for_filter(const State& state) const {
-    return frozen_position_ ? *frozen_position_ : state.position;
-  }
 
   StepForces forces_;
   std::unique_ptr<Integrator> integrator_;
-  const Filter* velocity_filter_ = nullptr;
-  const Eigen::MatrixX3d* frozen_position_;
+  PlacedFilter velocity_filter_;
   std::vector<std::unique_ptr<VelocityHook>> hooks_;
   Eigen::MatrixX3d velocity_;  // (n x 3) the new ones
   FilterScratch scratch_;

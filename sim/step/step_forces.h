@@ -9,14 +9,24 @@
 
 namespace billow::sim {
 
+/// A filter, or none, and the positions by which it takes its distances.
+struct PlacedFilter {
+  const Filter* filter = nullptr;
+  const Eigen::MatrixX3d* frozen_position = nullptr;  // (n x 3) instead of the state's; null: the state's
+
+  explicit operator bool() const { return filter != nullptr; }
+  const Filter* operator->() const { return filter; }
+  const Eigen::MatrixX3d& position(const State& state) const {
+    return frozen_position ? *frozen_position : state.position;
+  }
+};
+
 /// Forces with the memory that they need, and with the filter between them and the scheme where it is one of forces.
 /// A constant field passes a filter unchanged, so gravity does.
 class StepForces {
  public:
-  /// `filter` may be null; with `frozen_position` (n x 3) it sees those positions instead of the state's. All must
-  /// outlive this.
-  StepForces(const Forces& forces, const Filter* filter, const Eigen::MatrixX3d* frozen_position)
-      : forces_(forces), filter_(filter), frozen_position_(frozen_position) {}
+  /// What they refer to must outlive this.
+  StepForces(const Forces& forces, const PlacedFilter& filter) : forces_(forces), filter_(filter) {}
 
   const Structure& structure() const { return forces_.structure(); }
 
@@ -30,13 +40,8 @@ class StepForces {
   void linearise(const State& state, double position_weight, double velocity_weight, StiffnessMatrix& matrix) const;
 
  private:
-  const Eigen::MatrixX3d& position_for_filter(const State& state) const {
-    return frozen_position_ ? *frozen_position_ : state.position;
-  }
-
   const Forces& forces_;
-  const Filter* filter_;
-  const Eigen::MatrixX3d* frozen_position_;
+  PlacedFilter filter_;
   ForceScratch force_scratch_;
   FilterScratch filter_scratch_;
   Eigen::MatrixX3d acceleration_;
