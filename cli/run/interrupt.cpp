@@ -2,6 +2,7 @@
 #include "cli/run/interrupt.h"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace billow::cli {
 
