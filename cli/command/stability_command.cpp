@@ -40,6 +40,7 @@ struct Subject {
   const Simulation& simulation;
   sim::State state;  // that the certificates are about
   sim::Linearisation linearisation, any_shape;
+  sim::StiffnessMatrix least_damping;  // at any shape
   std::vector<std::string> unbounded;  // laws that no limit counts
   std::optional<sim::Filter> filter;
   sim::EigenvalueEstimate k0;
@@ -60,9 +61,16 @@ std::vector<Row> rows_of(const Subject& subject) {
   return rows;
 }
 
-Limit certified(const Subject& subject, const Row& row, const sim::Linearisation& linearisation) {
-  return limit_of(sim::certified_step(subject.simulation.structure(), linearisation, subject.state.position, row.method,
-                                      subject.scene.solver.integrator, row.filtered ? &*subject.filter : nullptr));
+Limit certified(const Subject& subject, const Row& row, const sim::Linearisation& linearisation,
+                const sim::StiffnessMatrix* least_damping) {
+  return limit_of(sim::certified_step({.structure = subject.simulation.structure(),
+                                       .linearisation = linearisation,
+                                       .position = subject.state.position,
+                                       .method = row.method,
+                                       .options = subject.scene.solver.integrator,
+                                       .filter = row.filtered ? &*subject.filter : nullptr,
+                                       .duration = subject.scene.duration,
+                                       .least_damping = least_damping}));
 }
 
 Limit measured(const Subject& subject, const Row& row) {
@@ -82,7 +90,8 @@ void certify(const Subject& subject, std::vector<Row>& rows) {
           Row& row = rows[k / 2];
           const bool at_state = k % 2 == 0;
           (at_state ? row.certified : row.any_shape) =
-              certified(subject, row, at_state ? subject.linearisation : subject.any_shape);
+              at_state ? certified(subject, row, subject.linearisation, nullptr)
+                       : certified(subject, row, subject.any_shape, &subject.least_damping);
         }
       },
       tbb::simple_partitioner());
@@ -112,6 +121,7 @@ Subject make_subject(const Scene& scene, const Simulation& simulation, double ti
                   state,
                   linearised(simulation, state),
                   std::move(any_shape.linearisation),
+                  simulation.forces().least_damping(),
                   std::move(any_shape.unbounded),
                   {},
                   {},

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "cli/run/channel.h"
 #include "cli/run/frame_recorder.h"
+#include "cli/run/incident_text.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/recorder.h"
 #include "cli/run/schedule.h"
@@ -94,12 +95,6 @@ void take_into(render::RunBounds& bounds, const Run& run, const sim::State& stat
   extend(bounds.box, run.drawn.surfaces(state), run.scene.bodies.size());
 }
 
-double next_of(const std::vector<Schedule>& schedules) {
-  double next = INFINITY;
-  for (const Schedule& schedule : schedules) next = std::min(next, schedule.next());
-  return next;
-}
-
 // What the process holds in memory [KiB]; 0 where the system does not say.
 long resident_memory() {
   std::ifstream file("/proc/self/statm");
@@ -147,39 +142,36 @@ class Film {
   void simulate() {
     FrameRecorder frames(setting_, snapshots_);
     std::vector<std::unique_ptr<Recorder>> recorders = make_recorders(setting_, report_);
-    const auto solver = run_.simulation.make_solver(run_.choice);
+    Moments moments(all_schedules(run_.scene, setting_.range.last));
+    const auto watched = run_.simulation.make_run(run_.choice, [&] { return moments.take(); });
     try {
-      record(*solver, frames, recorders);
+      record(*watched, frames, recorders);
     } catch (const DivergenceError& error) {
       report_.divergence = error.what();
     }
-    report_.steps = solver->steps();
-    report_.simulated_time = solver->state().time;
-    report_.solves = solver->solve_counts();
+    const sim::Solver& solver = watched->solver();
+    report_.steps = solver.steps();
+    report_.simulated_time = solver.state().time;
+    report_.solves = solver.solve_counts();
+    report_.incidents = watched->incidents();
+    report_.largest_strain = solver.largest_strain();
     frames.finish();
     for (const auto& recorder : recorders) recorder->finish();
   }
 
   // From one moment that some recorder wants to the next.
-  void record(sim::Solver& solver, FrameRecorder& frames, const std::vector<std::unique_ptr<Recorder>>& recorders) {
+  void record(sim::WatchedRun& watched, FrameRecorder& frames,
+              const std::vector<std::unique_ptr<Recorder>>& recorders) {
     std::vector<Recorder*> all = {&frames};
     for (const auto& recorder : recorders) all.push_back(recorder.get());
-    while (const auto time = next_moment(all)) {
+    do {
       if ((report_.interrupted_by = interrupted_by()) != 0) return;
-      {
-        const Stopwatch watch(report_.simulate);
-        const sim::State state = solver.sample(*time);
-        for (Recorder* recorder : all)
-          if (recorder->wants() <= *time + Schedule::together) recorder->add(*time, state);
-      }
-      if (!frames.hand_over()) return;
-    }
-  }
-
-  static std::optional<double> next_moment(const std::vector<Recorder*>& recorders) {
-    double next = INFINITY;
-    for (const Recorder* recorder : recorders) next = std::min(next, recorder->wants());
-    return std::isfinite(next) ? std::make_optional(next) : std::nullopt;
+      const Stopwatch watch(report_.simulate);
+      const auto sample = watched.next();
+      if (!sample) return;
+      for (Recorder* recorder : all)
+        if (recorder->wants() <= sample->time + Schedule::together) recorder->add(sample->time, sample->state);
+    } while (frames.hand_over());
   }
 
   bool wanted(render::View view, long frame) const { return !folder_.keeps(view, frame); }
@@ -235,16 +227,20 @@ Survey survey(const Run& run, Progress& progress) {
   Survey result;
   result.bounds.velocity_scale = 0.0;
   const Stopwatch watch(result.cost, CLOCK_PROCESS_CPUTIME_ID);
-  const auto solver = run.simulation.make_solver(run.choice);
   const long frames = frame_count(run.scene);
-  std::vector<Schedule> schedules = all_schedules(run.scene, frames);
+  Moments moments(all_schedules(run.scene, frames));
+  const auto watched = run.simulation.make_run(run.choice, [&] { return moments.take(); });
+  std::size_t incidents = 0;
   progress.begin("survey", frames);
   try {
-    for (double time; std::isfinite(time = next_of(schedules)) && interrupted_by() == 0;) {
-      take_into(result.bounds, run, solver->sample(time));
-      const bool frame = schedules.front().take(time);
-      for (Schedule& schedule : schedules) schedule.take(time);
-      if (frame) progress.update(schedules.front().taken(), time);
+    Schedule shown = frame_schedule(run.scene, frames);
+    while (interrupted_by() == 0) {
+      const auto sample = watched->next();
+      for (; incidents < watched->incidents().size(); ++incidents)
+        progress.say(incident_text(watched->incidents()[incidents], run.choice.step));
+      if (!sample) break;
+      take_into(result.bounds, run, sample->state);
+      if (shown.take(sample->time)) progress.update(shown.taken(), sample->time);
     }
   } catch (const DivergenceError&) {
     // The film meets the same step and reports it, after writing the frames before it.

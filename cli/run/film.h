@@ -50,6 +50,8 @@ struct FilmReport {
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
   int interrupted_by = 0;  // the signal that ended the run early, or 0
   std::optional<std::string> divergence = {};  // the message, when the run diverged
+  std::vector<sim::Incident> incidents = {};   // what went wrong and was mended
+  double largest_strain = 0.0;                 // [rest lengths] of any spring
 };
 
 /// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the

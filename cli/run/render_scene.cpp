@@ -11,10 +11,10 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/run/film.h"
+#include "cli/run/incident_text.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/run_facts.h"
 #include "cli/run/run_record.h"
-#include "sim/limit/measured_limit.h"
 
 namespace billow::cli {
 
@@ -36,7 +36,13 @@ Warnings warnings_before(const StepChoice& choice) {
         fmt::format("the step is above the certified limit of {:.4g} s; the run may diverge", *choice.limit));
   for (const std::string& law : choice.unbounded)
     warnings.push_back(fmt::format("the step limit does not count {}, which has no bound; the run may diverge", law));
-  if (!choice.k0.converged) warnings.push_back("the power method did not settle; k0 may be a little too low");
+  if (choice.only_at_rest())
+    warnings.push_back(
+        "the step is certified at rest only: damping along springs leaves motion across stretched ones undamped, which "
+        "this method makes grow; fluid friction or another method would hold it");
+  if (choice.always_grows)
+    warnings.push_back("this filter makes some motion grow slowly whatever the step; 'form: conserving' does not");
+  if (!choice.k0.converged) warnings.push_back("the search for k0 did not settle; it may be a little too low");
   return warnings;
 }
 
@@ -44,33 +50,12 @@ void say(const Progress& progress, const Warnings& warnings) {
   for (const std::string& warning : warnings) progress.say("warning: " + warning);
 }
 
-// How far the energy climbed above its lowest value so far, as a share of what the run can turn over.
-double energy_climb(const FilmReport& report, double scale) {
-  double lowest = INFINITY, climb = 0.0;
-  for (const FrameRecord& frame : report.frames) {
-    const double energy = frame.kinetic + frame.potential;
-    lowest = std::min(lowest, energy);
-    climb = std::max(climb, energy - lowest);
-  }
-  return scale > 0.0 ? climb / scale : 0.0;
-}
-
-// What puts energy in, such as muscles, may do so.
-std::optional<std::string> warning_of_energy(const Run& run, const FilmReport& report) {
-  const sim::Forces& forces = run.simulation.forces();
-  if (!forces.passive()) return std::nullopt;
-  const double climb = energy_climb(
-      report, sim::energy_scale(run.simulation.structure(), forces, run.scene.gravity, run.simulation.initial_state()));
-  if (climb <= 0.05) return std::nullopt;
-  return fmt::format(
-      "the energy climbed by {:.0f} % of the weight times the size, which nothing physical does; take a smaller step, "
-      "or the conserving form for a force filter",
-      100.0 * climb);
-}
-
 Warnings warnings_after(const Run& run, const FilmReport& report) {
   Warnings warnings;
-  if (const auto warning = warning_of_energy(run, report)) warnings.push_back(*warning);
+  for (const sim::Incident& incident : report.incidents) warnings.push_back(incident_text(incident, run.choice.step));
+  if (report.largest_strain > sim::suspect_strain)
+    warnings.push_back(fmt::format(
+        "a spring was stretched by {:.3g} times its rest length, which its stiffness allowed", report.largest_strain));
   if (report.solves.failures > 0)
     warnings.push_back(
         fmt::format("{} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "

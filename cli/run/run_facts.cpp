@@ -59,7 +59,7 @@ Facts facts_of(const Run& run, const Survey& survey, const FilmReport& report) {
   Facts facts{{"Scene", fmt::format("{} (hash {})", scene.file.string(), scene.hash)},
               {"Particles, springs", fmt::format("{}, {}", structure.particles(), structure.springs())},
               {"Highest eigenvalue k0", fmt::format("{:.4g} /s²{}", choice.k0.value,
-                                                    choice.k0.converged ? "" : " (the power method did not settle)")}};
+                                                    choice.k0.converged ? "" : " (the search did not settle)")}};
   if (choice.filtered) facts.emplace_back("With the filter", fmt::format("{:.4g} /s²", choice.filtered->value));
   facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
                              {"Filter", filter_text(scene)},

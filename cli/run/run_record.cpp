@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/atomic_file.h"
+#include "cli/run/incident_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -27,6 +28,19 @@ Json estimate(const sim::EigenvalueEstimate& e) {
 
 Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
+Json watch_record(const Scene& scene, const StepChoice& choice, const FilmReport& report) {
+  Json json = {
+      {"changes_step", scene.solver.watch}, {"largest_strain", report.largest_strain}, {"incidents", Json::array()}};
+  for (const sim::Incident& incident : report.incidents)
+    json["incidents"].push_back({{"kind", name(incident.kind)},
+                                 {"seen", incident.seen},
+                                 {"from", incident.begin},
+                                 {"to", incident.end},
+                                 {"smallest_step", std::ldexp(choice.step, -incident.halvings)},
+                                 {"discarded_steps", incident.discarded}});
+  return json;
+}
+
 Json solver_record(const Scene& scene, const StepChoice& choice, const FilmReport& report) {
   Json json = {{"method", sim::name(scene.solver.method)},
                {"step", choice.step},
@@ -39,6 +53,7 @@ Json solver_record(const Scene& scene, const StepChoice& choice, const FilmRepor
   if (choice.filtered) json["filtered_eigenvalue"] = estimate(*choice.filtered);
   json["steps"] = report.steps;
   json["simulated_time"] = report.simulated_time;
+  json["watch"] = watch_record(scene, choice, report);
   json["linear_solves"] = {{"count", report.solves.solves},
                            {"iterations", report.solves.iterations},
                            {"not_converged", report.solves.failures}};

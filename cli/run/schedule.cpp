@@ -37,6 +37,18 @@ bool Schedule::take(double time) {
   return true;
 }
 
+double Moments::next() const {
+  double next = INFINITY;
+  for (const Schedule& schedule : schedules_) next = std::min(next, schedule.next());
+  return next;
+}
+
+double Moments::take() {
+  const double time = next();
+  for (Schedule& schedule : schedules_) schedule.take(time);
+  return time;
+}
+
 double end_of_run(const Scene& scene, long last_frame) {
   return std::min(scene.duration, static_cast<double>(last_frame) / scene.render.fps);
 }

@@ -37,6 +37,20 @@ class Schedule {
   long taken_ = 0;
 };
 
+/// Several schedules as one: each moment once, ascending.
+class Moments {
+ public:
+  explicit Moments(std::vector<Schedule> schedules) : schedules_(std::move(schedules)) {}
+
+  /// Infinite when there are no more.
+  double next() const;
+  /// Takes it from all the schedules that it is in.
+  double take();
+
+ private:
+  std::vector<Schedule> schedules_;
+};
+
 /// [s] where a run that draws frames up to `last_frame` ends: before the samples of the frame after it.
 double end_of_run(const Scene& scene, long last_frame);
 

@@ -28,6 +28,7 @@ struct SolverSpec {
   StepRule step_rule = StepRule::automatic;
   double step = 0.0;    // [s] for StepRule::fixed
   double safety = 0.9;  // in (0, 1], for the other two rules
+  bool watch = true;    // smaller steps where the run goes wrong; otherwise it is only said
   std::optional<sim::FilterOptions> filter;
   std::string lambda_expression;  // lambda as a formula over the particles; empty: filter->lambda everywhere
   std::string lambda_where;       // its place in the scene

@@ -86,6 +86,7 @@ SolverSpec read_solver(MapReader& scene, double duration) {
   solver.method = map.choice("method", solver.method);
   read_step(map, duration, solver);
   solver.safety = map.number("safety", solver.safety);
+  solver.watch = map.boolean("watch", solver.step_rule == StepRule::automatic);
   solver.integrator.linear_solver = map.choice("linear_solver", solver.integrator.linear_solver);
   solver.integrator.tolerance = map.number("tolerance", solver.integrator.tolerance);
   solver.integrator.max_iterations = map.integer("max_iterations", solver.integrator.max_iterations);

@@ -1,11 +1,14 @@
 // Scene -> structure, forces, step.
 #include "cli/scene/simulation.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "cli/scene/particle_expression.h"
 #include "sim/filter/filter.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
+#include "sim/limit/measured_limit.h"
 #include "sim/limit/paper_step.h"
 
 namespace billow::cli {
@@ -52,27 +55,52 @@ Simulation::Simulation(const Scene& scene)
       forces_(std::make_unique<sim::Forces>(structure_, scene.gravity)),
       initial_(start_of(scene, structure_)),
       filter_(filter_of(scene, structure_)) {
+  if (filter_) operator_.emplace(structure_, *filter_);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) add_laws(scene, structure_, static_cast<int>(b), *forces_);
 }
 
-std::unique_ptr<sim::Solver> Simulation::make_solver(const StepChoice& choice) const {
+sim::SolverOptions Simulation::solver_options(const StepChoice& choice) const {
   sim::SolverOptions options;
   options.method = scene_.solver.method;
   options.integrator = scene_.solver.integrator;
   options.filter = filter_;
   options.step = choice.step;
   options.limit = choice.limit;
-  return std::make_unique<sim::Solver>(structure_, *forces_, options, initial_);
+  return options;
 }
 
-std::optional<double> Simulation::certified_limit(const sim::Linearisation& linearisation) const {
+std::unique_ptr<sim::Solver> Simulation::make_solver(const StepChoice& choice) const {
+  return std::make_unique<sim::Solver>(structure_, *forces_, solver_options(choice), initial_);
+}
+
+std::unique_ptr<sim::WatchedRun> Simulation::make_run(const StepChoice& choice,
+                                                      sim::WatchedRun::NextTime next_time) const {
+  sim::SolverOptions options = solver_options(choice);
+  options.max_strain = sim::torn_strain;
+  const sim::WatchOptions watch{.changes_step = scene_.solver.watch,
+                                .energy_scale = sim::energy_scale(structure_, *forces_, scene_.gravity, initial_),
+                                .from_start = filter_ && filter_->target == sim::FilterTarget::force};
+  return std::make_unique<sim::WatchedRun>(structure_, *forces_,
+                                           std::make_unique<sim::Solver>(structure_, *forces_, options, initial_),
+                                           watch, std::move(next_time));
+}
+
+sim::CertifiedStep Simulation::certified_limit(const sim::Linearisation& linearisation,
+                                               const sim::StiffnessMatrix* least_damping) const {
   const SolverSpec& solver = scene_.solver;
-  std::optional<sim::Filter> filter;
-  if (filter_) filter.emplace(structure_, *filter_);
-  const sim::CertifiedStep certified =
-      sim::certified_step(structure_, linearisation, structure_.rest_position, solver.method, solver.integrator,
-                          filter ? &*filter : nullptr);
-  return certified.unlimited ? std::nullopt : std::make_optional(certified.step);
+  return sim::certified_step({.structure = structure_,
+                              .linearisation = linearisation,
+                              .position = structure_.rest_position,
+                              .method = solver.method,
+                              .options = solver.integrator,
+                              .filter = operator_ ? &*operator_ : nullptr,
+                              .duration = scene_.duration,
+                              .least_damping = least_damping});
+}
+
+void StepChoice::take(const sim::CertifiedStep& found, std::optional<double>& limit) {
+  if (!found.unlimited) limit = found.step;
+  always_grows = always_grows || found.always_grows;
 }
 
 StepChoice Simulation::find_limits() const {
@@ -81,34 +109,43 @@ StepChoice Simulation::find_limits() const {
   const sim::ForceBound at_rest = forces_->bound(sim::Shapes::rest);
   choice.unbounded = at_rest.unbounded;
   choice.k0 = sim::max_eigenvalue(structure_, at_rest.linearisation.stiffness);
-  if (filter_)
-    choice.filtered =
-        sim::filtered_eigenvalue(structure_, at_rest.linearisation.stiffness, sim::Filter(structure_, *filter_));
+  if (operator_) choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.linearisation.stiffness, *operator_);
   choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
-  choice.certified = certified_limit(at_rest.linearisation);
-  if (choice.certified && solver.step_rule != StepRule::fixed)  // a given step is only compared with the first
-    choice.any_shape = certified_limit(forces_->bound(sim::Shapes::any).linearisation);
-  const bool any_shape_binds = choice.any_shape && *choice.any_shape < *choice.certified;
-  choice.limit = any_shape_binds ? choice.any_shape : choice.certified;
+  choice.take(certified_limit(at_rest.linearisation, nullptr), choice.certified);
+  if (solver.step_rule != StepRule::fixed) {  // a given step is only compared with the first
+    const sim::StiffnessMatrix least_damping = forces_->least_damping();
+    choice.take(certified_limit(forces_->bound(sim::Shapes::any).linearisation, &least_damping), choice.any_shape);
+  }
+  choice.limit = choice.any_shape_binds() ? choice.any_shape : choice.certified;
   return choice;
+}
+
+// Why there is no step to take, and what to do.
+std::string Simulation::refusal() const {
+  const SolverSpec& solver = scene_.solver;
+  if (filter_ && solver.method != sim::Method::forward_euler)
+    return fmt::format(
+        "this {} filter turns some motions around, so that {} grows at every step and 'step: auto' has none to offer; "
+        "use 'form: conserving' or a larger lambda, or give a step in seconds",
+        sim::name(filter_->target), sim::name(solver.method));
+  return fmt::format(
+      "{} grows at every step here, so 'step: auto' has none to offer; add damping or a velocity filter, use another "
+      "method, or give a step in seconds",
+      sim::name(solver.method));
 }
 
 StepChoice Simulation::choose_step() const {
   const SolverSpec& solver = scene_.solver;
   StepChoice choice = find_limits();
-  const bool any_shape_binds = choice.any_shape && choice.limit == choice.any_shape;
   if (solver.step_rule == StepRule::fixed) return choice.step = solver.step, choice.bound = "given", choice;
   const bool by_paper = solver.step_rule == StepRule::paper;
   const std::optional<double> limit = by_paper ? choice.paper : choice.limit;
-  if (limit && *limit == 0.0)
-    throw InputError(scene_.file.string() + ": " + std::string(sim::name(solver.method)) +
-                     " grows at every step here, so 'step: auto' has none to offer; add damping or a velocity filter, "
-                     "use another method, or give a step in seconds");
+  if (limit && *limit == 0.0) throw InputError(scene_.file.string() + ": " + refusal());
   choice.step = limit ? solver.safety * *limit : paper_implicit_step;
-  choice.bound = !limit            ? "unlimited: the paper's 0.01 s"
-                 : by_paper        ? "paper"
-                 : any_shape_binds ? "certified for any shape"
-                                   : "certified at rest";
+  choice.bound = !limit                     ? "unlimited: the paper's 0.01 s"
+                 : by_paper                 ? "paper"
+                 : choice.any_shape_binds() ? "certified for any shape"
+                                            : "certified at rest";
   return choice;
 }
 

@@ -10,8 +10,10 @@
 #include "sim/body/state.h"
 #include "sim/body/structure.h"
 #include "sim/force/forces.h"
-#include "sim/linear/power_method.h"
+#include "sim/limit/certificate.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "sim/step/solver.h"
+#include "sim/step/watched_run.h"
 
 namespace billow::cli {
 
@@ -25,8 +27,15 @@ struct StepChoice {
   std::optional<double> certified;                  // [s] of the linearised step at rest
   std::optional<double> any_shape;                  // [s] of the stiffest that any shape can be
   std::vector<std::string> unbounded;               // laws that no limit counts
+  bool always_grows = false;                        // slowly, at every step alike: the filter's doing
   sim::EigenvalueEstimate k0;                       // [1/s^2]
   std::optional<sim::EigenvalueEstimate> filtered;  // Algorithm 1's alpha [1/s^2] where the scene filters
+
+  /// `found` into one of the limits.
+  void take(const sim::CertifiedStep& found, std::optional<double>& limit);
+  /// Whether a step is certified, but for the rest shape only.
+  bool only_at_rest() const { return any_shape == 0.0 && certified != 0.0; }
+  bool any_shape_binds() const { return any_shape && !only_at_rest() && (!certified || *any_shape < *certified); }
 };
 
 /// Everything that a run needs besides time. Immovable: the forces refer to the structure.
@@ -45,6 +54,8 @@ class Simulation {
 
   /// A solver at the scene's start, taking steps of `choice`.
   std::unique_ptr<sim::Solver> make_solver(const StepChoice& choice) const;
+  /// The same, watched: states at what `next_time` comes to.
+  std::unique_ptr<sim::WatchedRun> make_run(const StepChoice& choice, sim::WatchedRun::NextTime next_time) const;
   /// The limits alone, no step chosen: also where there is none to choose.
   StepChoice find_limits() const;
   /// The step that the scene asks for. Schemes without a limit take the paper's 0.01 s. Throws InputError when every
@@ -52,13 +63,17 @@ class Simulation {
   StepChoice choose_step() const;
 
  private:
-  std::optional<double> certified_limit(const sim::Linearisation& linearisation) const;
+  sim::CertifiedStep certified_limit(const sim::Linearisation& linearisation,
+                                     const sim::StiffnessMatrix* least_damping) const;
+  sim::SolverOptions solver_options(const StepChoice& choice) const;
+  std::string refusal() const;
 
   const Scene& scene_;
   sim::Structure structure_;
   std::unique_ptr<sim::Forces> forces_;
   sim::State initial_;
   std::optional<sim::FilterOptions> filter_;
+  std::optional<sim::Filter> operator_;  // the same, as an operator
 };
 
 }  // namespace billow::cli

@@ -28,14 +28,14 @@ BodyMotion body_motion(const Structure& structure, const Body& body, const Eigen
 }
 
 // The pseudo-inverse leaves an axis without inertia alone.
-void restore_momenta(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
-                     const BodyMotion& before, Eigen::MatrixX3d& field) {
-  const BodyMotion after = body_motion(structure, body, position, field);
-  const Eigen::Vector3d shift = (before.linear - after.linear) / after.mass;
+void set_momenta(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
+                 const BodyMotion& motion, Eigen::MatrixX3d& field) {
+  const BodyMotion now = body_motion(structure, body, position, field);
+  const Eigen::Vector3d shift = (motion.linear - now.linear) / now.mass;
   const Eigen::Vector3d spin =
-      after.inertia.completeOrthogonalDecomposition().solve(Eigen::Vector3d(before.angular - after.angular));
+      now.inertia.completeOrthogonalDecomposition().solve(Eigen::Vector3d(motion.angular - now.angular));
   for (int i = body.first_particle; i < body.first_particle + body.particles; ++i) {
-    const Eigen::Vector3d r = position.row(i).transpose() - after.centre;
+    const Eigen::Vector3d r = position.row(i).transpose() - now.centre;
     field.row(i) += (shift + spin.cross(r)).transpose();
   }
 }

@@ -1,4 +1,4 @@
-// A body's motion as a whole, and giving it back what a filter has taken of it.
+// A body's motion as a whole, and taking it out of a field or putting it back.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +18,10 @@ struct BodyMotion {
 BodyMotion body_motion(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
                        const Eigen::MatrixX3d& field);
 
-/// Adds the rigid motion V + omega x r that brings the body's momenta back to `before`. A body on a line has no inertia
-/// about it: that axis is left alone.
-void restore_momenta(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
-                     const BodyMotion& before, Eigen::MatrixX3d& field);
+/// Adds the rigid motion V + omega x r that gives the body the momenta of `motion`; none for BodyMotion{}. A body on a
+/// line has no inertia about it: that axis is left alone.
+void set_momenta(const Structure& structure, const Body& body, const Eigen::MatrixX3d& position,
+                 const BodyMotion& motion, Eigen::MatrixX3d& field);
 
 /// Whether nothing of the body is pinned.
 bool is_free(const Structure& structure, const Body& body);

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/random.h"
+#include "sim/linear/lanczos.h"
 #include "sim/pass/filter_pass.h"
 
 namespace billow::sim {
@@ -39,18 +39,6 @@ void check(const Structure& structure, const FilterOptions& o) {
     require(o.lambda_keys[k - 1].first < o.lambda_keys[k].first, "the filter's times for lambda must be ascending");
 }
 
-// Linear between keys, constant outside them.
-double key_factor(const std::vector<std::pair<double, double>>& keys, double time) {
-  if (keys.empty()) return 1.0;
-  if (time <= keys.front().first) return keys.front().second;
-  for (std::size_t k = 1; k < keys.size(); ++k)
-    if (time < keys[k].first) {
-      const double t = (time - keys[k - 1].first) / (keys[k].first - keys[k - 1].first);
-      return keys[k - 1].second + t * (keys[k].second - keys[k - 1].second);
-    }
-  return keys.back().second;
-}
-
 // beta(d) / beta(0): the common factor lambda cancels when the weights are normalised.
 double kernel(FilterKernel kind, double lambda, double distance) {
   const double t = lambda * distance;
@@ -70,7 +58,10 @@ Filter::Filter(const Structure& structure, FilterOptions options)
                                     [&](const Body& body) { return is_free(structure, body); });
     keep_spectrum_positive();
   }
-  if (!constant_weights()) return;
+  if (constant_weights()) set_rest_weights();
+}
+
+void Filter::set_rest_weights() {
   FilterWeights weights;
   compute_weights(nullptr, 0.0, weights);
   rest_weights_ = arranged(weights);
@@ -83,7 +74,7 @@ bool Filter::constant_weights() const {
 
 void Filter::compute_weights(const Eigen::MatrixX3d* position, double time, FilterWeights& weights) const {
   const auto& [first, column] = neighbours_.rows;
-  const double factor_now = key_factor(options_.lambda_keys, time);
+  const double factor_now = lambda_factor(options_, time);
   weights.self.resize(structure_.particles());
   weights.neighbour.resize(neighbours_.distance.size());
   for (int i = 0; i < structure_.particles(); ++i) {
@@ -118,59 +109,37 @@ void Filter::soften(FilterWeights& weights) const {
 double Filter::time_of_smallest_lambda() const {
   double smallest = 0.0;
   for (const auto& [time, factor] : options_.lambda_keys)
-    if (factor < key_factor(options_.lambda_keys, smallest)) smallest = time;
+    if (factor < lambda_factor(options_, smallest)) smallest = time;
   return smallest;
 }
 
 // The share of every body's exchange that leaves no eigenvalue of F below 0, where it filters most: F = I - E has the
 // smallest one 1 - (the largest of E).
 void Filter::keep_spectrum_positive() {
-  constexpr double margin = 1e-3;  // for what the power iteration has not reached
   FilterWeights weights;
   compute_weights(nullptr, time_of_smallest_lambda(), weights);
   const Eigen::VectorXd largest = largest_exchange(arranged(weights));
   for (std::size_t b = 0; b < structure_.body.size(); ++b)
     strength_.segment(structure_.body[b].first_particle, structure_.body[b].particles)
-        .setConstant(1.0 / std::max(1.0, largest(b) + margin));
+        .setConstant(1.0 / std::max(1.0, largest(b)));
 }
 
-namespace {
-
-auto rows_of(const Body& body) { return Eigen::seqN(body.first_particle, body.particles); }
-
-// The largest Rayleigh quotient of three vectors on a body in the masses' inner product: `weighted` is M times
-// `vector`, `product` E times it. Nothing where one of them is zero.
-std::optional<double> rayleigh_quotient(const Body& body, const Eigen::MatrixX3d& vector,
-                                        const Eigen::MatrixX3d& weighted, const Eigen::MatrixX3d& product) {
-  const auto rows = rows_of(body);
-  const Eigen::RowVector3d square = vector(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
-  const Eigen::RowVector3d along = product(rows, Eigen::all).cwiseProduct(weighted(rows, Eigen::all)).colwise().sum();
-  if (!(square.minCoeff() > 0.0)) return std::nullopt;
-  return along.cwiseQuotient(square).maxCoeff();
-}
-
-}  // namespace
-
-// The largest eigenvalue of E = I - F of every body (b): by power iteration, three vectors at a time, all bodies at
-// once.
+// The largest eigenvalue of E = I - F of every body (b), from above.
 Eigen::VectorXd Filter::largest_exchange(const PlacedWeights& weights) const {
-  constexpr int iterations = 500;
-  const Eigen::VectorXd free = structure_.inverse_mass.cwiseSign();
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(structure_.body.size());
-  Eigen::MatrixX3d v = free.asDiagonal() * seeded_noise(structure_.particles(), 1);
+  constexpr double tolerance = 1e-3;
   FilterScratch scratch;
-  for (int k = 0; k < iterations; ++k) {
-    const Eigen::MatrixX3d before = v;
-    apply_once(weights, v, scratch);
-    v = free.asDiagonal() * (before - v);
-    const Eigen::MatrixX3d weighted = structure_.mass.asDiagonal() * before;
-    for (std::size_t b = 0; b < structure_.body.size(); ++b) {
-      const auto quotient = rayleigh_quotient(structure_.body[b], before, weighted, v);
-      if (!quotient) continue;  // nothing is exchanged at all
-      largest(b) = *quotient;
-      const auto rows = rows_of(structure_.body[b]);
-      v(rows, Eigen::all) /= std::max(v(rows, Eigen::all).norm(), 1e-300);
-    }
+  const auto exchange = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+    y = x;
+    apply_once(weights, y, scratch);
+    y = x - y;
+  };
+  Eigen::VectorXd largest(structure_.body.size());
+  for (std::size_t b = 0; b < structure_.body.size(); ++b) {
+    const Body& body = structure_.body[b];
+    Eigen::VectorXd inner_mass = Eigen::VectorXd::Zero(structure_.particles());
+    for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
+      if (!structure_.pinned(i)) inner_mass(i) = structure_.mass(i);
+    largest(b) = largest_eigenvalue({exchange, {}, inner_mass}, {.tolerance = tolerance, .scale = 1.0}).upper();
   }
   return largest;
 }
@@ -185,11 +154,8 @@ void Filter::symmetrise_with_masses(FilterWeights& weights) const {
     double neighbours = 0.0;
     for (int e = first[i]; e < first[i + 1]; ++e) {
       const int j = column[e];
-      const auto row = column.begin() + first[j], row_end = column.begin() + first[j + 1];
-      const auto back = std::lower_bound(row, row_end, i) - column.begin();
-      const double forth = structure_.mass(i) * weights.neighbour(e);
-      const double exchange =
-          structure_.pinned(j) ? forth : std::min(forth, structure_.mass(j) * weights.neighbour(back));
+      const double forth = structure_.mass(i) * weights.neighbour(e), back = weights.neighbour(reverse_of(i, e));
+      const double exchange = structure_.pinned(j) ? forth : std::min(forth, structure_.mass(j) * back);
       neighbours += result.neighbour(e) = exchange / structure_.mass(i);
     }
     result.self(i) = 1.0 - neighbours;
@@ -248,14 +214,29 @@ void Filter::apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field, F
 
 void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
                    FilterScratch& scratch) const {
-  scratch.before.clear();
-  if (restores_momenta_)
-    for (const Body& body : structure_.body) scratch.before.push_back(body_motion(structure_, body, position, field));
+  take_rigid_motion(position, field, scratch);
   const PlacedWeights& weights = weights_at(position, time, scratch);
   for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field, scratch);
+  put_rigid_motion(position, field, scratch);
+}
+
+// With P the projection onto rigid motions, which is orthogonal in the masses' inner product, the conserving form of a
+// free body is (I - P) F (I - P) + P: rigid motions pass as they are, and it stays self-adjoint.
+void Filter::take_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field,
+                               FilterScratch& scratch) const {
+  scratch.before.clear();
+  if (!restores_momenta_) return;
+  for (const Body& body : structure_.body) {
+    scratch.before.push_back(body_motion(structure_, body, position, field));
+    if (is_free(structure_, body)) set_momenta(structure_, body, position, BodyMotion{}, field);
+  }
+}
+
+void Filter::put_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field,
+                              const FilterScratch& scratch) const {
   for (std::size_t b = 0; b < scratch.before.size(); ++b)
     if (is_free(structure_, structure_.body[b]))
-      restore_momenta(structure_, structure_.body[b], position, scratch.before[b], field);
+      set_momenta(structure_, structure_.body[b], position, scratch.before[b], field);
 }
 
 // The last pass writes where `columns` say.
@@ -294,6 +275,62 @@ void Filter::apply_and_kick(const Eigen::MatrixX3d& position, double time, Eigen
   columns.kick_step = h;
   for (int axis = 0; axis < 3; ++axis) columns.base[axis] = velocity.col(axis).data();
   apply_last(position, time, field, columns, scratch);
+}
+
+// Both directions of every exchange of momentum, m_i b_ij and m_j b_ji, by neighbour entry; weights of pinned particles
+// count for nothing, as their velocities do.
+bool Filter::self_adjoint() const {
+  constexpr double rounding = 1e-9;
+  if (options_.form == FilterForm::conserving) return true;
+  FilterWeights weights;
+  compute_weights(nullptr, 0.0, weights);
+  const FilterWeights adjoint = adjoint_of(weights);
+  const auto& [first, column] = neighbours_.rows;
+  for (int i = 0; i < structure_.particles(); ++i)
+    for (int e = first[i]; e < first[i + 1]; ++e)
+      if (!structure_.pinned(i) && !structure_.pinned(column[e]) &&
+          std::abs(weights.neighbour(e) - adjoint.neighbour(e)) > rounding)
+        return false;
+  return true;
+}
+
+// What the conserving form is scaled down by stays, though it is found where lambda is smallest.
+Filter Filter::frozen(double time) const {
+  Filter result = *this;
+  const double factor = lambda_factor(options_, time);
+  result.options_.lambda *= factor;
+  result.options_.particle_lambda *= factor;
+  result.options_.lambda_keys.clear();
+  result.options_.distances = FilterDistances::rest;
+  result.set_rest_weights();
+  return result;
+}
+
+Filter Filter::adjoint() const {
+  if (!constant_weights()) throw std::logic_error("only a filter with constant weights has one adjoint");
+  Filter result = *this;
+  FilterWeights weights;
+  compute_weights(nullptr, 0.0, weights);
+  if (options_.form != FilterForm::conserving) weights = adjoint_of(weights);
+  result.rest_weights_ = arranged(weights);
+  return result;
+}
+
+// M^-1 F^T M: b*_ij = m_j b_ji / m_i. The diagonal stays.
+FilterWeights Filter::adjoint_of(const FilterWeights& weights) const {
+  const auto& [first, column] = neighbours_.rows;
+  FilterWeights result = weights;
+  for (int i = 0; i < structure_.particles(); ++i)
+    for (int e = first[i]; e < first[i + 1]; ++e)
+      result.neighbour(e) = structure_.mass(column[e]) / structure_.mass(i) * weights.neighbour(reverse_of(i, e));
+  return result;
+}
+
+// Of the entry e of row i, which is j: the entry of row j that is i.
+Eigen::Index Filter::reverse_of(int i, int e) const {
+  const auto& [first, column] = neighbours_.rows;
+  const int j = column[e];
+  return std::lower_bound(column.begin() + first[j], column.begin() + first[j + 1], i) - column.begin();
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> Filter::weights(const Eigen::MatrixX3d& position, double time) const {

@@ -20,7 +20,7 @@ struct FilterColumns;
 /// The conserving form exchanges min(m_i b_ij, m_j b_ji) of momentum both ways between neighbours, which is symmetric
 /// in the masses' inner product; where a body's smallest eigenvalue at rest is negative, as on some irregular meshes,
 /// all its exchanges are scaled down until it is 0. A negative response would turn the restoring forces of a force
-/// filter around. A free body then gets its angular momentum back as a rigid rotation.
+/// filter around. Rigid motions of a free body pass unchanged, so it keeps both momenta.
 class Filter {
  public:
   /// Throws InputError on an option out of its range.
@@ -40,23 +40,36 @@ class Filter {
                       FilterScratch& scratch) const;
 
   const FilterOptions& options() const { return options_; }
+  /// Whether it is self-adjoint in the masses' inner product, over fields that are zero in pinned rows: the conserving
+  /// form, and others where no mass differs from what their weights call for. At the weights of rest and time 0.
+  bool self_adjoint() const;
+  /// Whether its weights depend neither on time nor on the shape.
+  bool constant_weights() const;
+  /// As it is at `time` [s] at rest distances, for good.
+  Filter frozen(double time) const;
+  /// M^-1 F^T M over such fields, as a filter. Throws std::logic_error where the weights change.
+  Filter adjoint() const;
   /// The row-normalised weights B in force at `position` and `time`, (n x n), for tests and analysis.
   Eigen::SparseMatrix<double, Eigen::RowMajor> weights(const Eigen::MatrixX3d& position, double time) const;
 
  private:
   void compute_weights(const Eigen::MatrixX3d* position, double time, FilterWeights& weights) const;
   void symmetrise_with_masses(FilterWeights& weights) const;
+  FilterWeights adjoint_of(const FilterWeights& weights) const;
+  Eigen::Index reverse_of(int i, int e) const;
   void soften(FilterWeights& weights) const;
   void keep_spectrum_positive();
+  void set_rest_weights();
   Eigen::VectorXd largest_exchange(const PlacedWeights& weights) const;
   double time_of_smallest_lambda() const;
   PlacedWeights arranged(const FilterWeights& weights) const;
   const PlacedWeights& weights_at(const Eigen::MatrixX3d& position, double time, FilterScratch& scratch) const;
+  void take_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field, FilterScratch& scratch) const;
+  void put_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field, const FilterScratch& scratch) const;
   void apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field, FilterScratch& scratch) const;
   void apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns,
                   FilterScratch& scratch) const;
   void run(const PlacedWeights& weights, const FilterColumns& columns, PassScratch& scratch) const;
-  bool constant_weights() const;
 
   const Structure& structure_;
   FilterOptions options_;

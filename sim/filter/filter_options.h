@@ -38,4 +38,11 @@ struct FilterOptions {
   std::vector<std::pair<double, double>> lambda_keys = {};  // (time [s], factor on lambda), ascending; empty: 1 always
 };
 
+/// The factor on lambda at `time` [s]: linear between keys, constant outside them.
+double lambda_factor(const FilterOptions& options, double time);
+
+/// When, within `duration` [s], the filter is weakest, lambda being largest, and when it is strongest: one moment where
+/// lambda stays as it is.
+std::vector<double> times_of_extremes(const FilterOptions& options, double duration);
+
 }  // namespace billow::sim

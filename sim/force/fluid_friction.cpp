@@ -21,6 +21,8 @@ bool FluidFriction::add_bound(Shapes, Linearisation& bound) const {
   return true;
 }
 
+void FluidFriction::add_least_damping(StiffnessMatrix& damping) const { add_friction(structure_, 1.0, damping); }
+
 // The sweep knows one friction for each body.
 bool FluidFriction::join(FusedSweep& sweep) const {
   if (sweep.friction) return false;

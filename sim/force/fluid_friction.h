@@ -15,7 +15,9 @@ class FluidFriction : public ForceLaw {
   void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
                          StiffnessMatrix& matrix) const override;
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  void add_least_damping(StiffnessMatrix& damping) const override;
   bool passive() const override { return true; }
+  double work(const State&, const State&) const override { return 0.0; }
   bool join(FusedSweep& sweep) const override;
 
  private:

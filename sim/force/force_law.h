@@ -45,8 +45,15 @@ class ForceLaw {
   /// a step limit then does not hold against it.
   virtual bool add_bound(Shapes shapes, Linearisation& bound) const = 0;
 
+  /// damping += what C never falls short of, whatever the shape and the motion: nothing for a law that damps in some
+  /// directions only. Forward Euler needs that much, where the other schemes bear no more than the bound.
+  virtual void add_least_damping(StiffnessMatrix& damping) const = 0;
+
   /// Whether it only ever takes energy out of the motion, its own potential energy counted.
   virtual bool passive() const = 0;
+
+  /// [J] the energy that it put in as `before` became `after`, a step later; 0 for passive laws, which need no account.
+  virtual double work(const State& before, const State& after) const = 0;
 
   /// Whether `sweep`, as changed, now does all that add_force does.
   virtual bool join(FusedSweep& sweep) const = 0;

@@ -101,6 +101,18 @@ void Forces::linearise(const State& state, double position_weight, double veloci
   for (const auto& law : laws_) law->add_linearisation(state, position_weight, velocity_weight, form, matrix);
 }
 
+StiffnessMatrix Forces::least_damping() const {
+  StiffnessMatrix damping(structure_);
+  for (const auto& law : laws_) law->add_least_damping(damping);
+  return damping;
+}
+
+double Forces::work(const State& before, const State& after) const {
+  double sum = 0.0;
+  for (const auto& law : laws_) sum += law->work(before, after);
+  return sum;
+}
+
 ForceBound Forces::bound(Shapes shapes) const {
   ForceBound bound{Linearisation(structure_), {}};
   for (const auto& law : laws_)

@@ -70,6 +70,11 @@ class Forces {
   /// What K and C never exceed at `shapes`, the laws without a bound left out and named.
   ForceBound bound(Shapes shapes) const;
 
+  /// What C never falls short of at any shape.
+  StiffnessMatrix least_damping() const;
+  /// [J] what the laws that are not passive put in as `before` became `after`.
+  double work(const State& before, const State& after) const;
+
   const Structure& structure() const { return structure_; }
 
  private:

@@ -15,7 +15,9 @@ class Gravity : public ForceLaw {
   double energy(const State& state) const override;
   void add_linearisation(const State&, double, double, JacobianForm, StiffnessMatrix&) const override {}
   bool add_bound(Shapes, Linearisation&) const override { return true; }
+  void add_least_damping(StiffnessMatrix&) const override {}
   bool passive() const override { return true; }
+  double work(const State&, const State&) const override { return 0.0; }
   bool join(FusedSweep& sweep) const override;
 
  private:

@@ -35,12 +35,19 @@ void MuscleForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
   }
 }
 
-double MuscleForce::energy(const State& state) const {
+double MuscleForce::energy(const State& state) const { return energy(state.position, state.time); }
+
+double MuscleForce::work(const State& before, const State& after) const {
+  return 0.5 * (energy(before.position, after.time) - energy(before.position, before.time) +
+                energy(after.position, after.time) - energy(after.position, before.time));
+}
+
+double MuscleForce::energy(const Eigen::MatrixX3d& position, double time) const {
   double sum = 0.0;
   for (const Muscle& muscle : muscle_) {
     const int s = muscle.spring;
-    const double stretch = along(structure_, state.position, s).norm() - structure_.rest_length(s);
-    const double shortening = structure_.rest_length(s) * motion_.contraction(muscle.segment, muscle.side, state.time);
+    const double stretch = along(structure_, position, s).norm() - structure_.rest_length(s);
+    const double shortening = structure_.rest_length(s) * motion_.contraction(muscle.segment, muscle.side, time);
     sum += structure_.stiffness(s) * shortening * (stretch + 0.5 * shortening);
   }
   return sum;

@@ -24,11 +24,15 @@ class MuscleForce : public ForceLaw {
   /// At rest: the sideways stiffness k c of the largest contraction of the motion. At any shape nothing that the
   /// springs' own bound has not: together they pull k (l - L (1 - c)) < k l.
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  void add_least_damping(StiffnessMatrix&) const override {}
   /// Only where they never contract.
   bool passive() const override;
+  /// What the change of their rest lengths alone does to their energy: the mean of that at either state.
+  double work(const State& before, const State& after) const override;
   bool join(FusedSweep&) const override { return false; }
 
  private:
+  double energy(const Eigen::MatrixX3d& position, double time) const;
   /// k c L [N] of a muscle at `time` [s].
   double tension(const Muscle& muscle, double time) const;
 

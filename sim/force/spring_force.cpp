@@ -175,6 +175,15 @@ bool SpringForce::add_bound(Shapes shapes, Linearisation& bound) const {
   return true;
 }
 
+// Projected damping lets what moves across a spring pass.
+void SpringForce::add_least_damping(StiffnessMatrix& damping) const {
+  for (const Body& body : structure_.body) {
+    if (body.damping_model != DampingModel::spring) continue;
+    for (int s = body.first_spring; s < body.first_spring + body.springs; ++s)
+      damping.add_spring(s, Eigen::Vector3d::UnitX(), structure_.damping(s), 0.0);
+  }
+}
+
 Linearisation linearise_at_rest(const Structure& structure) {
   Linearisation bound(structure);
   add_spring_bound(structure, Shapes::rest, bound);

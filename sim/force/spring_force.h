@@ -24,7 +24,9 @@ class SpringForce : public ForceLaw {
   /// shape with its steepest slope in all directions at once: while tensions stay below k l, a spring's true block
   /// (T/l) I + (k - T/l) u u^T is at most k I whatever its direction, so no fold or crumple is stiffer than this.
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  void add_least_damping(StiffnessMatrix& damping) const override;
   bool passive() const override { return true; }
+  double work(const State&, const State&) const override { return 0.0; }
   bool join(FusedSweep& sweep) const override;
 
   /// Puts the sum of its springs, also where there are none, of every particle into `sink`, with each body's friction

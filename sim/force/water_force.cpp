@@ -58,6 +58,15 @@ void WaterForce::add_force(const State& state, Eigen::MatrixX3d& force) const {
   }
 }
 
+// Against the water's own motion the pressure only takes energy out.
+double WaterForce::work(const State& before, const State& after) const {
+  if (passive()) return 0.0;
+  Eigen::MatrixX3d push = Eigen::MatrixX3d::Zero(structure_.particles(), 3);
+  add_force(before, push);
+  add_force(after, push);
+  return 0.5 * (after.time - before.time) * push.colwise().sum().dot(water_.velocity.transpose());
+}
+
 // A corner's share is -c / m g with g = (N . v) N / |N|, N = A n the face's area normal, v the mean of its corners'.
 // -df/dv at each corner is c / m^2 N N^T / |N|. With dg/dN = (N v^T + (N . v) (I - N N^T / N^2)) / |N| and
 // dN = dx_k x (x_next - x_previous) / 2, -df/dx_k is -c / 2m dg/dN [x_next - x_previous]_x.

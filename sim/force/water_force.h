@@ -34,8 +34,11 @@ class WaterForce : public ForceLaw {
                          StiffnessMatrix& matrix) const override;
   /// Every face pushed at once: as it is at rest, or turned any way and grown by largest_growth.
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  void add_least_damping(StiffnessMatrix&) const override {}
   /// In still water.
   bool passive() const override { return water_.velocity.isZero(0.0); }
+  /// What the current carries in: its push times its own velocity.
+  double work(const State& before, const State& after) const override;
   bool join(FusedSweep&) const override { return false; }
 
  private:

@@ -1,41 +1,29 @@
-// The largest stable step of a scheme with a filter, found by running the real linearised step.
+// The largest stable step of a scheme with a filter: by eigenvalues where they tell, by running the real linearised
+// step where not.
 #pragma once
 
 #include <cstdint>
 
-#include "sim/body/structure.h"
-#include "sim/filter/filter.h"
-#include "sim/linear/stiffness.h"
-#include "sim/step/schemes.h"
+#include "sim/limit/linearised_step.h"
 
 namespace billow::sim {
 
 struct CertificateOptions {
-  int steps = 1000;  // linear steps per trial of an explicit scheme; half as many for schemes of several evaluations
-  int implicit_steps = 24;       // of an implicit one, whose modes die out at once or grow at once
   double step_tolerance = 5e-4;  // relative width of the final bisection interval
   std::uint64_t seed = 1;
-
-  /// A step whose spectral radius exceeds 1 by more than this counts as unstable. In half a trial it grows by e^2, and
-  /// over e shows even where the growing motion begins as a small part of the whole. A trial of half as many steps
-  /// comes to just under e: a radius of up to 1.0041 may pass there.
-  double growth_tolerance() const { return 4.0 / steps; }
 };
 
-/// What a search for the largest stable step found.
-struct CertifiedStep {
-  double step = 0.0;       // [s] largest step found stable; 0 when even 0.08 of 2/sqrt(k0) grows
-  bool unlimited = false;  // stable at every step tried; `step` is then the largest one tried
-  int trials = 0;
-};
-
-/// The largest h for which the linearised step x, v -> scheme(force = -K x - C v, filter) does not grow. Trials run the
-/// real scheme and filter from the stiffest mode plus noise, and compare the largest norm of the trial's last quarter
-/// with that of its second: twofold at most for a double eigenvalue on the unit circle, so e counts as growth. The
-/// search climbs from 0.4 of 2/sqrt(k0), or less where that grows, and bisects the first failure. `linearisation` is
-/// about `position` (n x 3), where the filter takes its current distances. `filter` may be null.
-CertifiedStep certified_step(const Structure& structure, const Linearisation& linearisation,
-                             const Eigen::MatrixX3d& position, Method method, const IntegratorOptions& options,
-                             const Filter* filter, const CertificateOptions& certificate = {});
+/// The largest h for which the linearised step does not grow; exact_limit's, where there is one.
+///
+/// Otherwise trials run the real scheme and filter from the stiffest mode plus noise and compare the largest energy of
+/// the trial's last quarter with that of its second. What grows by less than e^6 over the run's whole duration counts
+/// as stable; trials are as long as it takes to see that, within bounds set by the number of particles. The search
+/// begins at the limit of the mean filter, (F + F*) / 2, if that has one, and else climbs from 0.4 of 2/sqrt(k0).
+/// A filter whose weights change counts as the weakest and as the strongest that it becomes within the duration, and
+/// where springs' current distances weigh, as none at all: stretched far enough they leave nothing of it.
+///
+/// `always_grows` is set where every step grows at about the same rate: it is the filter then that makes the motion
+/// itself grow, as plain weights can, and `step` is the limit but for that.
+CertifiedStep certified_step(const LinearisedStep& step, const CertificateOptions& options = {});
 
 }  // namespace billow::sim

@@ -1,29 +1,38 @@
-// Power iteration on forces that are filtered.
+// Lanczos where the filter is self-adjoint, Arnoldi where not.
 #include "sim/limit/filtered_eigenvalue.h"
 
-#include "base/random.h"
+#include "sim/linear/arnoldi.h"
+#include "sim/linear/lanczos.h"
 
 namespace billow::sim {
 
-// F M^-1 K is not symmetric, so the estimate is the growth of the norm instead of a Rayleigh quotient.
 EigenvalueEstimate filtered_eigenvalue(const Structure& structure, const StiffnessMatrix& stiffness,
-                                       const Filter& filter, const PowerOptions& options) {
-  Eigen::MatrixX3d v =
-      structure.inverse_mass.cwiseSign().asDiagonal() * seeded_noise(structure.particles(), options.seed);
-  Eigen::MatrixX3d product;
-  EigenvalueEstimate estimate;
+                                       const Filter& filter, const EigenvalueOptions& options) {
   FilterScratch scratch;
-  for (int k = 1; k <= options.max_iterations && !estimate.converged; ++k) {
-    const double norm = v.norm();
-    if (norm == 0.0) return {0.0, k, true};
-    v /= norm;
-    stiffness.multiply(v, product);
-    product = structure.inverse_mass.asDiagonal() * product;
-    filter.apply(structure.rest_position, 0.0, product, scratch);
-    estimate = {product.norm(), k, settled(product.norm(), estimate.value, options.tolerance)};
-    v.swap(product);
+  const Eigen::VectorXd free_mass = structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
+  const ParticleOperator acceleration = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+    stiffness.multiply(x, y);
+    y = structure.inverse_mass.asDiagonal() * y;
+  };
+  const ParticleOperator filtered = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+    y = x;
+    filter.apply(structure.rest_position, 0.0, y, scratch);
+  };
+  if (filter.options().form == FilterForm::conserving) {
+    const ExtremeEigenvalue found = largest_eigenvalue(
+        {acceleration, filtered, free_mass},
+        {.tolerance = options.tolerance, .max_iterations = options.max_iterations, .seed = options.seed});
+    return {found.value, found.iterations, found.converged, found.error};
   }
-  return estimate;
+  Eigen::MatrixX3d unfiltered;
+  const auto both = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+    acceleration(x, unfiltered);
+    filtered(unfiltered, y);
+  };
+  const LargestModulus found =
+      largest_modulus(both, free_mass,
+                      {.max_iterations = options.max_iterations, .tolerance = options.tolerance, .seed = options.seed});
+  return {found.value, found.iterations, found.converged, found.residual};
 }
 
 }  // namespace billow::sim

@@ -18,7 +18,9 @@ class LinearForce : public ForceLaw {
   void add_linearisation(const State& state, double position_weight, double velocity_weight, JacobianForm form,
                          StiffnessMatrix& matrix) const override;
   bool add_bound(Shapes shapes, Linearisation& bound) const override;
+  void add_least_damping(StiffnessMatrix& damping) const override { damping.add_scaled(linearisation_.damping, 1.0); }
   bool passive() const override { return true; }
+  double work(const State&, const State&) const override { return 0.0; }
   bool join(FusedSweep&) const override { return false; }
 
  private:

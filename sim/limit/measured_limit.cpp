@@ -13,7 +13,8 @@ double energy_scale(const Structure& structure, const Forces& forces, const Eige
                     const State& initial) {
   const Eigen::RowVector3d size = initial.position.colwise().maxCoeff() - initial.position.colwise().minCoeff();
   const double weight = structure.mass.sum() * gravity.norm() * size.norm();
-  return weight > 0.0 ? weight : kinetic_energy(structure, initial) + std::abs(forces.potential_energy(initial));
+  const double most = std::max(weight, kinetic_energy(structure, initial));
+  return most > 0.0 ? most : std::abs(forces.potential_energy(initial));
 }
 
 bool runs_stably(const Structure& structure, const Forces& forces, const SolverOptions& options, const State& initial,

@@ -17,8 +17,8 @@ struct MeasurementOptions {
   double step_tolerance = 0.01;    // relative width of the final bisection interval
 };
 
-/// The energy [J] that a run can turn over: the weight of all bodies times the diagonal of their box, or, without
-/// gravity, the initial kinetic and potential energy.
+/// The energy [J] that a run can turn over: the weight of all bodies times the diagonal of their box, or the kinetic
+/// energy that they start with where that is more; without either, the initial potential energy.
 double energy_scale(const Structure& structure, const Forces& forces, const Eigen::Vector3d& gravity,
                     const State& initial);
 

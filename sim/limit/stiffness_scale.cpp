@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "sim/force/spring_force.h"
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 
 namespace billow::sim {
 

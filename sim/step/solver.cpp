@@ -67,6 +67,7 @@ State interpolated(const State& from, const State& to, double time) {
 
 Solver::Solver(const Structure& structure, const Forces& forces, const SolverOptions& options, State initial)
     : structure_(structure),
+      forces_(forces),
       options_(options),
       filter_(options.filter ? std::make_optional<Filter>(structure, *options.filter) : std::nullopt),
       step_(forces, options.method, options.integrator, filter_ ? &*filter_ : nullptr),
@@ -78,52 +79,63 @@ Solver::Solver(const Structure& structure, const Forces& forces, const SolverOpt
     if (structure.pinned(i)) state_.velocity.row(i).setZero();
 }
 
+// Time is counted in the smallest steps there are; whole numbers of them times a power of two are exact.
 void Solver::advance() {
-  step_(state_, options_.step);
+  const bool accounts = !forces_.passive();
+  if (accounts) before_ = state_;
+  step_(state_, step());
   ++steps_;
-  state_.time = start_time_ + static_cast<double>(steps_) * options_.step;
+  ticks_ += ticks_per_step >> halvings_;
+  state_.time = time_of(ticks_);
+  if (accounts) work_ += forces_.work(before_, state_);
   check_divergence();
 }
 
-// A particle that crosses a whole rest length in one step is suspect, and then every spring is looked at.
-void Solver::check_divergence() const {
-  const double speed_square = state_.velocity.squaredNorm();
-  double reach = 0.0;
-  for (const Body& body : structure_.body) reach = std::max(reach, body.mean_rest_length / options_.step);
-  const bool suspect = !(speed_square < reach * reach);
-  if (!suspect && steps_ % strain_check_interval != 0) return;
-  if (!std::isfinite(speed_square) || !std::isfinite(state_.position.sum()) ||
-      worst_spring(structure_, state_).strain > options_.max_strain)
-    report_divergence();
+void Solver::go_back(const Checkpoint& checkpoint) {
+  state_ = checkpoint.state, previous_ = checkpoint.previous;
+  ticks_ = checkpoint.ticks, steps_ = checkpoint.steps;
+  work_ = checkpoint.work, largest_strain_ = checkpoint.largest_strain;
 }
 
-void Solver::report_divergence() const {
+// A particle that crosses a whole rest length in one step is suspect, and then every spring is looked at.
+void Solver::check_divergence() {
+  const double speed_square = state_.velocity.squaredNorm();
+  double reach = 0.0;
+  for (const Body& body : structure_.body) reach = std::max(reach, body.mean_rest_length / step());
+  const bool suspect = !(speed_square < reach * reach);
+  if (!suspect && steps_ % strain_check_interval != 0) return;
+  const double strain = worst_spring(structure_, state_).strain;
+  largest_strain_ = std::max(largest_strain_, strain);
+  if (!std::isfinite(speed_square) || !std::isfinite(state_.position.sum()) || strain > options_.max_strain)
+    throw DivergenceError(divergence_text(advice()));
+}
+
+std::string Solver::divergence_text(const std::string& advice) const {
   const WorstSpring worst = worst_spring(structure_, state_);
   const int i = structure_.spring(worst.spring, 0), j = structure_.spring(worst.spring, 1);
-  throw DivergenceError(fmt::format(
+  return fmt::format(
       "the simulation diverged at step {} (t = {:.4f} s): {} is the fastest; {} spring {} ({} to {}) is stretched by "
       "{:.3g} times its rest length; the step was {:.4g} s and {}",
       steps_, state_.time, particle_name(structure_, fastest_particle(state_)), name(structure_.kind[worst.spring]),
-      worst.spring, particle_name(structure_, i), particle_name(structure_, j), worst.strain, options_.step, advice()));
+      worst.spring, particle_name(structure_, i), particle_name(structure_, j), worst.strain, step(), advice);
 }
 
-// A step beyond the limit is the usual cause; a run that diverges within it was pulled apart.
 std::string Solver::advice() const {
   const std::string scheme = fmt::format("{}{}", name(options_.method), options_.filter ? " with this filter" : "");
   if (!options_.limit) return fmt::format("{} has no known limit here; use a smaller step", scheme);
   if (options_.step > *options_.limit)
     return fmt::format("the limit for {} is {:.4g} s; use 'step: auto' or a smaller step", scheme, *options_.limit);
   return fmt::format(
-      "the limit for {} is {:.4g} s, so the springs are too soft for what pulls at them: raise the stiffness or lower "
-      "the mass",
+      "the limit for {} is {:.4g} s as long as springs keep about their lengths; use 'step: auto', 'watch: true' or a "
+      "smaller step",
       scheme, *options_.limit);
 }
 
 State Solver::sample(double time) {
-  const double rounding = 1e-9 * options_.step;
+  const double rounding = 1e-9 * step();
   while (state_.time < time - rounding) {
     // The last step, also when it ends at `time` itself: the next sample may go back into it.
-    if (state_.time + 1.5 * options_.step > time) previous_ = state_;
+    if (state_.time + 1.5 * step() > time) previous_ = state_;
     advance();
   }
   if (state_.time <= time + rounding) return state_;

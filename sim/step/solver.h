@@ -1,6 +1,7 @@
 // Steps a state through time and stops at the first sign of divergence.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -13,18 +14,34 @@
 
 namespace billow::sim {
 
+/// Springs stretched by so many rest lengths are a sign of divergence in a run whose energy nobody watches, and worth a
+/// warning in any.
+constexpr double suspect_strain = 10.0;
+/// No cloth is stretched so far, in balance or not.
+constexpr double torn_strain = 1000.0;
+
 struct SolverOptions {
   Method method = Method::fb_euler;
   IntegratorOptions integrator = {};
   std::optional<FilterOptions> filter = {};
   double step = 0.0;                 // [s] > 0
   std::optional<double> limit = {};  // [s] the largest stable step as far as it is known: quoted when the run diverges
-  double max_strain = 10.0;          // a spring longer than (1 + this) rest lengths has diverged
+  double max_strain = suspect_strain;  // a spring longer than (1 + this) rest lengths has diverged
 };
 
-/// Owns the state of a run. Step k ends at time k h exactly, so nothing drifts over long runs.
+/// Owns the state of a run. Step k ends at time k h exactly, so nothing drifts over long runs. A step may be halved up
+/// to ten times and be made whole again.
 class Solver {
  public:
+  static constexpr int most_halvings = 10;
+
+  /// All that a run can be taken back to.
+  struct Checkpoint {
+    State state, previous;
+    long ticks = 0, steps = 0;
+    double work = 0.0, largest_strain = 0.0;
+  };
+
   /// Structure and forces must outlive the solver. Pinned particles start at rest whatever `initial` says.
   Solver(const Structure& structure, const Forces& forces, const SolverOptions& options, State initial);
 
@@ -35,22 +52,47 @@ class Solver {
   /// position, linear in velocity). Times must not go back by more than one step.
   State sample(double time);
 
+  Checkpoint checkpoint() const { return {state_, previous_, ticks_, steps_, work_, largest_strain_}; }
+  void go_back(const Checkpoint& checkpoint);
+  /// Steps are 1 / 2^halvings of the given one from now on. At times of coarser steps only may they become fewer.
+  void set_halvings(int halvings) { halvings_ = halvings; }
+  int halvings() const { return halvings_; }
+  /// [s] as it is now.
+  double step() const { return std::ldexp(options_.step, -halvings_); }
+  /// [s] when the whole step that is the `steps`-th from here ends.
+  double time_after(long steps) const { return time_of(ticks_ + steps * ticks_per_step); }
+
+  /// That the simulation diverged, where and how; `advice` ends the sentence "the step was ... and".
+  std::string divergence_text(const std::string& advice) const;
+  /// What to do about a step that was given: the limit, if it is beyond that.
+  std::string advice() const;
+  /// [J] that laws of force which are not passive have put in.
+  double work() const { return work_; }
+  /// By how many rest lengths a spring was stretched at most, of those looked at.
+  double largest_strain() const { return largest_strain_; }
+
   const State& state() const { return state_; }
   long steps() const { return steps_; }
   SolveCounts solve_counts() const { return step_.solve_counts(); }
 
  private:
-  void check_divergence() const;
-  [[noreturn]] void report_divergence() const;
-  std::string advice() const;
+  static constexpr long ticks_per_step = 1L << most_halvings;
+
+  double time_of(long ticks) const {
+    return start_time_ + static_cast<double>(ticks) * std::ldexp(options_.step, -most_halvings);
+  }
+  void check_divergence();
 
   const Structure& structure_;
+  const Forces& forces_;
   SolverOptions options_;
   std::optional<Filter> filter_;
   Step step_;
   State state_, previous_;
-  double start_time_ = 0.0;
-  long steps_ = 0;
+  State before_;  // the step, where work is to be accounted for
+  double start_time_ = 0.0, work_ = 0.0, largest_strain_ = 0.0;
+  int halvings_ = 0;
+  long ticks_ = 0, steps_ = 0;
 };
 
 }  // namespace billow::sim

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sim/force/spring_force.h"
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "tests/support/swimmers.h"
 
 namespace billow {

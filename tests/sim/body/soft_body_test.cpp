@@ -15,7 +15,7 @@
 #include "sim/force/forces.h"
 #include "sim/force/spring_force.h"
 #include "sim/limit/stiffness_scale.h"
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "sim/mesh/closed_surface.h"
 #include "sim/step/solver.h"
 #include "tests/support/mesh_files.h"

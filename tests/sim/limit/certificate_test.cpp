@@ -12,7 +12,7 @@
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
 #include "sim/limit/stiffness_scale.h"
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "sim/step/step.h"
 #include "tests/support/evaluations.h"
 #include "tests/support/ring_of_modes.h"
@@ -29,7 +29,7 @@ using Ring = test::RingOfModes;
 
 CertifiedStep certified(const Structure& structure, const Linearisation& linearisation, Method method,
                         const Filter* filter) {
-  return certified_step(structure, linearisation, structure.rest_position, method, {}, filter);
+  return certified_step({structure, linearisation, structure.rest_position, method, {}, filter});
 }
 
 CertifiedStep certified_at_rest(const Structure& structure, Method method, const Filter* filter) {
@@ -187,7 +187,7 @@ struct Oscillators {
     return std::abs(1.0 + s * (1.0 + s / 2.0 * (1.0 + s / 3.0 * (1.0 + s / 4.0)))) - 1.0;
   }
   double certified() const {
-    return certified_step(structure, linearisation, structure.rest_position, Method::rk4, {}, nullptr).step;
+    return certified_step({structure, linearisation, structure.rest_position, Method::rk4}).step;
   }
   Structure structure = grid({.width = 2, .height = 2, .structural = 0.0, .shear = 0.0, .bend = 0.0});
   Linearisation linearisation{structure};

@@ -14,7 +14,7 @@
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
 #include "sim/limit/stiffness_scale.h"
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "tests/support/structures.h"
 
 namespace billow::sim {
@@ -39,9 +39,8 @@ class FallingSheet : public testing::Test {
   }
   double certified(const FilterOptions& options) const {
     const Filter filter(structure_, options);
-    return certified_step(structure_, linearise_at_rest(structure_), structure_.rest_position, Method::fb_euler, {},
-                          &filter)
-        .step;
+    const Linearisation linearisation = linearise_at_rest(structure_);
+    return certified_step({structure_, linearisation, structure_.rest_position, Method::fb_euler, {}, &filter}).step;
   }
   double measured(const FilterOptions& filter) const {
     return measured_step(structure_, forces_, with(filter, 0.0), start_, scale_, certified(filter), 0.02, measurement_)

@@ -1,5 +1,5 @@
 // k0 and the paper's Algorithm 1 against closed forms, a general bound, and two independent eigenvalue solvers.
-#include "sim/linear/power_method.h"
+#include "sim/linear/max_eigenvalue.h"
 #include "sim/force/spring_force.h"
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
@@ -25,12 +25,12 @@ using test::grid;
 using test::spectral_radius;
 using test::with_uneven_masses;
 
-EigenvalueEstimate k0(const Structure& structure, const PowerOptions& options = {}) {
+EigenvalueEstimate k0(const Structure& structure, const EigenvalueOptions& options = {}) {
   return max_eigenvalue(structure, linearise_at_rest(structure).stiffness, options);
 }
 
 // n equal masses between two walls: omega_max = 2 sqrt(k/m) sin(n pi / (2 (n + 1))).
-TEST(PowerMethod, MatchesTheClosedFormOfAFixedChain) {
+TEST(MaxEigenvalue, MatchesTheClosedFormOfAFixedChain) {
   for (const int n : {1, 2, 7, 40}) {
     SCOPED_TRACE(n);
     const Structure chain = fixed_chain({.free_particles = n, .mass = 0.2, .stiffness = 50.0});
@@ -41,7 +41,7 @@ TEST(PowerMethod, MatchesTheClosedFormOfAFixedChain) {
   }
 }
 
-TEST(PowerMethod, FindsTheFastestModeOfAFixedChain) {
+TEST(MaxEigenvalue, FindsTheFastestModeOfAFixedChain) {
   const Structure chain = fixed_chain({.free_particles = 6});
   Eigen::MatrixX3d mode;
   max_eigenvalue(chain, linearise_at_rest(chain).stiffness, {.tolerance = 1e-14}, &mode);
@@ -62,7 +62,7 @@ std::vector<Structure> sheets() {
           merge({grid({.width = 3, .height = 3}), grid({.width = 4, .height = 4, .structural = 5.0})})};
 }
 
-TEST(PowerMethod, AgreesWithADenseSolverFromBelow) {
+TEST(MaxEigenvalue, AgreesWithADenseSolverFromBelow) {
   for (const Structure& structure : sheets()) {
     const EigenvalueEstimate estimate = k0(structure);
     const double exact = spectral_radius(dense_dynamics(structure, linearise_at_rest(structure).stiffness));
@@ -72,7 +72,7 @@ TEST(PowerMethod, AgreesWithADenseSolverFromBelow) {
   }
 }
 
-TEST(PowerMethod, AgreesWithALanczosSolverOnALargeSheet) {
+TEST(MaxEigenvalue, AgreesWithALanczosSolverOnALargeSheet) {
   const Structure structure =
       with_uneven_masses(grid({.width = 40, .height = 40, .mass = 0.01, .structural = 120.0, .pinned = {0, 39}}), 0.3);
   Eigen::SparseMatrix<double> matrix = linearise_at_rest(structure).stiffness.assemble(false);
@@ -87,7 +87,7 @@ TEST(PowerMethod, AgreesWithALanczosSolverOnALargeSheet) {
   EXPECT_NEAR(k0(structure).value, exact, 1e-5 * exact);
 }
 
-TEST(PowerMethod, StaysBelowTheGeneralBound) {
+TEST(MaxEigenvalue, StaysBelowTheGeneralBound) {
   for (const Structure& structure : sheets()) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(structure.particles());
     for (int s = 0; s < structure.springs(); ++s)
@@ -96,18 +96,18 @@ TEST(PowerMethod, StaysBelowTheGeneralBound) {
   }
 }
 
-TEST(PowerMethod, SaysWhenItDidNotConverge) {
+TEST(MaxEigenvalue, SaysWhenItDidNotConverge) {
   const EigenvalueEstimate estimate = k0(sheets()[0], {.max_iterations = 3, .tolerance = 1e-14});
   EXPECT_FALSE(estimate.converged);
   EXPECT_EQ(estimate.iterations, 3);
 }
 
-TEST(PowerMethod, GivesZeroWhenNothingMovesOrNothingResists) {
+TEST(MaxEigenvalue, GivesZeroWhenNothingMovesOrNothingResists) {
   EXPECT_EQ(k0(grid({.width = 2, .height = 2, .pinned = {0, 1, 2, 3}})).value, 0.0);
   EXPECT_EQ(k0(grid({.width = 3, .height = 2, .structural = 0.0, .shear = 0.0, .bend = 0.0})).value, 0.0);
 }
 
-TEST(PowerMethod, IsTheSameForTheSameSeedAndAgreesBetweenSeeds) {
+TEST(MaxEigenvalue, IsTheSameForTheSameSeedAndAgreesBetweenSeeds) {
   const Structure structure = sheets()[1];
   EXPECT_EQ(k0(structure).value, k0(structure).value);
   EXPECT_NEAR(k0(structure, {.seed = 2}).value, k0(structure).value, 1e-5 * k0(structure).value);
@@ -149,7 +149,7 @@ TEST(Algorithm1, FindsTheSpectralRadiusOfTheFilteredDynamics) {
 }
 
 // A filter so weak that it lets everything pass.
-TEST(Algorithm1, EqualsThePowerMethodWithoutFiltering) {
+TEST(Algorithm1, EqualsTheGreatestEigenvalueWithoutFiltering) {
   const Structure structure = sheets()[1];
   const Filter filter(structure, {.lambda = 50.0});
   const StiffnessMatrix stiffness = linearise_at_rest(structure).stiffness;
