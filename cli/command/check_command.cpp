@@ -3,14 +3,19 @@
 
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/run/watched_scene.h"
 #include "cli/scene/simulation.h"
 
 namespace billow::cli {
 
 int check_command(const SceneOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  Progress progress(ProgressStyle::automatic);
+  const Scene scene = read_scene(options.scene, options.overrides, progress);
+  progress.phase("springs");
   const Simulation simulation(scene);
+  progress.phase("limit");
   const StepChoice choice = simulation.choose_step();
+  progress.end();
   fmt::print("{}", scene.effective);
   const sim::Structure& structure = simulation.structure();
   fmt::print(stderr, "{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})\n",

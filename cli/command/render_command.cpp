@@ -1,15 +1,20 @@
 // billow render: a scene's frames, strip, record and page.
+#include "base/process_start.h"
 #include "cli/command/commands.h"
+#include "cli/run/watched_scene.h"
 
 namespace billow::cli {
 
 int render_command(const RenderOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  Progress progress(options.progress, process_start());
+  const Scene scene = read_scene(options.scene, options.overrides, progress);
   // What is wrong with these is found before the step is certified, which takes seconds.
   range_of(options, scene);
   check_output_folder(output_of(options), options.existing, scene.hash);
+  progress.phase("springs");
   const Simulation simulation(scene);
-  return render_scene(scene, simulation, simulation.choose_step(), options);
+  progress.phase("limit");
+  return render_scene(scene, simulation, simulation.choose_step(), options, progress);
 }
 
 }  // namespace billow::cli

@@ -7,6 +7,7 @@
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/measured_run.h"
+#include "cli/run/watched_scene.h"
 #include "cli/scene/simulation.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
@@ -184,15 +185,21 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
 }  // namespace
 
 int stability_command(const StabilityOptions& options) {
-  const Scene scene = read_scene(options.scene.scene, options.scene.overrides);
+  Progress progress(ProgressStyle::automatic);
+  const Scene scene = read_scene(options.scene.scene, options.scene.overrides, progress);
+  progress.phase("springs");
   const Simulation simulation(scene);
+  progress.phase("limits");
   const Subject subject = make_subject(scene, simulation, options.time);
   std::vector<Row> rows = rows_of(subject);
   certify(subject, rows);
-  if (options.measured)
+  if (options.measured) {
+    progress.phase("measured limits");
     tbb::parallel_for(
         std::size_t{0}, rows.size(), [&](std::size_t r) { rows[r].measured = measured(subject, rows[r]); },
         tbb::simple_partitioner());
+  }
+  progress.end();
   if (options.scene.json)
     fmt::print("{}\n", as_json(subject, rows).dump(2));
   else

@@ -27,6 +27,16 @@ std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) con
   return states;
 }
 
+Eigen::AlignedBox3d DrawnScene::box(const sim::State& state) const {
+  const std::vector<sim::SurfaceState> drawn = surfaces(state);
+  Eigen::AlignedBox3d box;
+  for (std::size_t b = 0; b < skin_.size(); ++b) {
+    box.extend(drawn[b].position.colwise().minCoeff().transpose().cast<double>());
+    box.extend(drawn[b].position.colwise().maxCoeff().transpose().cast<double>());
+  }
+  return box;
+}
+
 // How far the followed body's centre of mass has come [m].
 Eigen::Vector3d DrawnScene::camera_path(const sim::State& state) const {
   if (!scene_.followed) return Eigen::Vector3d::Zero();

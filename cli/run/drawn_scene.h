@@ -20,6 +20,8 @@ class DrawnScene {
   std::vector<render::DrawnBody> bodies() const;
   /// Where the drawn bodies are at `state`, as the camera sees it: moved along with the body that it follows.
   std::vector<sim::SurfaceState> surfaces(const sim::State& state) const;
+  /// The box around them, what drifts in the water left out.
+  Eigen::AlignedBox3d box(const sim::State& state) const;
 
  private:
   Eigen::Vector3d camera_path(const sim::State& state) const;

@@ -80,19 +80,11 @@ struct FinishedImage {
   render::Image image;
 };
 
-// By the first `bodies` of the surfaces: what drifts in the water around them does not count.
-void extend(Eigen::AlignedBox3d& box, const std::vector<sim::SurfaceState>& surfaces, std::size_t bodies) {
-  for (std::size_t b = 0; b < bodies; ++b) {
-    box.extend(surfaces[b].position.colwise().minCoeff().transpose().cast<double>());
-    box.extend(surfaces[b].position.colwise().maxCoeff().transpose().cast<double>());
-  }
-}
-
 // What the state adds to what a run must be prepared for.
 void take_into(render::RunBounds& bounds, const Run& run, const sim::State& state) {
   const Eigen::RowVector3d mean_square = state.velocity.colwise().squaredNorm() / state.velocity.rows();
   bounds.velocity_scale = std::max(bounds.velocity_scale, 2.0 * std::sqrt(mean_square.maxCoeff()));
-  extend(bounds.box, run.drawn.surfaces(state), run.scene.bodies.size());
+  bounds.box.extend(run.drawn.box(state));
 }
 
 // What the process holds in memory [KiB]; 0 where the system does not say.

@@ -3,16 +3,24 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/announcement.h"
+
 namespace billow::cli {
 
 namespace {
 
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+constexpr double long_phase = 0.5;  // [s] a phase that lasts longer is said
+// A file may have any name.
+constexpr auto replace_invalid = nlohmann::json::error_handler_t::replace;
+constexpr const char* wiped = "\r\033[K";
+
+double seconds_of(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 std::string time_left(double left) {
   const long whole = static_cast<long>(left + 0.5);
@@ -21,11 +29,45 @@ std::string time_left(double left) {
 
 }  // namespace
 
-Progress::Progress(ProgressStyle style) : style_(style) {
-  redraw_ = style == ProgressStyle::automatic && isatty(STDERR_FILENO);
+Progress::Progress(ProgressStyle style, Clock::time_point begin)
+    : style_(style),
+      redraw_(style == ProgressStyle::automatic && isatty(STDERR_FILENO)),
+      start_(begin),
+      phase_begin_(begin) {}
+
+void Progress::phase(std::string_view name, std::string_view subject) {
+  end();
+  past_ = phases();
+  phase_begin_ = Clock::now();
+  const auto known = std::find_if(past_.begin(), past_.end(), [&](const PhaseTime& p) { return p.name == name; });
+  present_ = static_cast<std::size_t>(known - past_.begin());
+  if (known == past_.end()) past_.push_back({std::string(name)});
+  if (style_ != ProgressStyle::none) announce_later(announcement(name, subject), long_phase);
 }
 
+std::string Progress::announcement(std::string_view name, std::string_view subject) const {
+  if (style_ == ProgressStyle::json)
+    return nlohmann::json{{"phase", name}, {"subject", subject}}.dump(-1, ' ', false, replace_invalid) + "\n";
+  const std::string on = subject.empty() ? "" : fmt::format(" {}", subject);
+  return redraw_ ? fmt::format("{}{}{} ...", wiped, name, on) : fmt::format("{}{} ...\n", name, on);
+}
+
+double Progress::seconds(std::string_view phase) const {
+  for (const PhaseTime& time : phases())
+    if (time.name == phase) return time.seconds;
+  return 0.0;
+}
+
+std::vector<PhaseTime> Progress::phases() const {
+  std::vector<PhaseTime> all = past_;
+  all[present_].seconds += seconds_of(Clock::now() - phase_begin_);
+  return all;
+}
+
+double Progress::wall() const { return seconds_of(Clock::now() - start_); }
+
 void Progress::begin(std::string_view stage, long total) {
+  end();
   stage_ = stage;
   total_ = total;
   begin_ = last_ = Clock::now();
@@ -35,13 +77,13 @@ void Progress::update(long done, double time) {
   if (style_ == ProgressStyle::none) return;
   const Clock::time_point now = Clock::now();
   const double pause = redraw_ ? 0.1 : 2.0;
-  if (done < total_ && seconds(now - last_) < pause) return;
+  if (done < total_ && seconds_of(now - last_) < pause) return;
   last_ = now;
   print_line(done, time);
 }
 
 void Progress::print_line(long done, double time) {
-  const double elapsed = seconds(last_ - begin_), rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
+  const double elapsed = seconds_of(last_ - begin_), rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
   const double left = rate > 0.0 ? static_cast<double>(total_ - done) / rate : 0.0;
   std::string line;
   if (style_ == ProgressStyle::json)
@@ -50,20 +92,22 @@ void Progress::print_line(long done, double time) {
                .dump() +
            "\n";
   else
-    line = fmt::format("{}{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left{}", redraw_ ? "\r\033[K" : "",
-                       stage_, done, total_, time, rate, time_left(left), redraw_ ? "" : "\n");
+    line = fmt::format("{}{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left{}", redraw_ ? wiped : "", stage_,
+                       done, total_, time, rate, time_left(left), redraw_ ? "" : "\n");
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
 
-void Progress::say(const std::string& line) const {
+void Progress::say(const std::string& line) {
+  end();
   const std::string text = style_ == ProgressStyle::json ? nlohmann::json{{"message", line}}.dump() : line;
   std::fputs((text + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 
 void Progress::end() {
-  if (redraw_) std::fputs("\r\033[K", stderr);
+  withdraw_announcement();
+  if (redraw_) std::fputs(wiped, stderr);
 }
 
 }  // namespace billow::cli

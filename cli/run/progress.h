@@ -1,39 +1,65 @@
-// How far a run is, on stderr.
+// How far a command is, on stderr, and how long its phases took.
 #pragma once
 
 #include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace billow::cli {
 
 /// `automatic` is one redrawn line on a terminal and plain lines elsewhere; `json` is one object per line.
 enum class ProgressStyle { automatic, plain, json, none };
 
-/// Prints a run's progress. Use it from one thread.
+/// A phase of a command, all its pieces together.
+struct PhaseTime {
+  std::string name;
+  double seconds = 0.0;  // [s] of the wall clock
+};
+
+/// Prints a command's progress and adds up its phases, which follow one another without gaps. Use it from one thread.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style);
+  using Clock = std::chrono::steady_clock;
 
-  /// Starts a stage of `total` frames.
+  /// `begin` is where the wall clock's time counts from; up to the first phase it is a phase of its own, "start".
+  explicit Progress(ProgressStyle style, Clock::time_point begin = Clock::now());
+  ~Progress() { end(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Ends the phase before and begins `name`, at work on `subject`, if it is on anything. It is said when it lasts
+  /// longer than half a second.
+  void phase(std::string_view name, std::string_view subject = "");
+  /// [s] that the phases of this name took until now; 0 where there was none.
+  double seconds(std::string_view phase) const;
+  /// All phases until now, in the order in which they first began.
+  std::vector<PhaseTime> phases() const;
+  /// [s] from the beginning until now: the sum of all phases.
+  double wall() const;
+
+  /// Starts a stage of `total` frames, which says itself how far it is.
   void begin(std::string_view stage, long total);
   /// `done` frames of the stage are finished, up to simulated time `time` [s].
   void update(long done, double time);
   /// A line of its own, before or after a stage; with `json` an object {"message": …} like every other line.
-  void say(const std::string& line) const;
-  /// Ends the stage: a redrawn line is wiped.
+  void say(const std::string& line);
+  /// Nothing more is shown of the stage or phase: a redrawn line is wiped.
   void end();
 
  private:
-  using Clock = std::chrono::steady_clock;
   void print_line(long done, double time);
+  std::string announcement(std::string_view name, std::string_view subject) const;
 
   ProgressStyle style_;
   bool redraw_ = false;
   std::string stage_;
   long total_ = 0;
-  Clock::time_point begin_, last_;
+  Clock::time_point begin_, last_;             // of the stage of frames
+  Clock::time_point start_, phase_begin_;      // of the command, of its present phase
+  std::vector<PhaseTime> past_ = {{"start"}};  // without the present one's time since phase_begin_
+  std::size_t present_ = 0;                    // of past_
 };
 
 }  // namespace billow::cli

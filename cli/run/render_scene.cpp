@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/run/film.h"
+#include "cli/run/given_bounds.h"
 #include "cli/run/incident_text.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/run_facts.h"
@@ -20,7 +21,7 @@ namespace billow::cli {
 
 namespace {
 
-void say_start(const Progress& progress, const Run& run) {
+void say_start(Progress& progress, const Run& run) {
   const sim::Structure& structure = run.simulation.structure();
   progress.say(fmt::format("{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})",
                            run.scene.file.string(), structure.particles(), structure.springs(), run.choice.k0.value,
@@ -46,7 +47,7 @@ Warnings warnings_before(const StepChoice& choice) {
   return warnings;
 }
 
-void say(const Progress& progress, const Warnings& warnings) {
+void say(Progress& progress, const Warnings& warnings) {
   for (const std::string& warning : warnings) progress.say("warning: " + warning);
 }
 
@@ -64,15 +65,19 @@ Warnings warnings_after(const Run& run, const FilmReport& report) {
   return warnings;
 }
 
-void say_end(const Progress& progress, const FilmReport& report, const Survey& survey, const OutputFolder& folder) {
+void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder) {
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
   const std::string strip =
       report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
-  progress.say(fmt::format(
-      "wrote {} images{}{}, run.json and index.html to {} in {:.1f} s (survey {:.1f}, simulate {:.1f}, draw "
-      "{:.1f}, encode {:.1f}; the last three overlap)",
-      report.images_written, kept, strip, folder.path().string(), survey.cost.wall + report.total.wall,
-      survey.cost.wall, report.simulate.wall, report.draw.wall, report.encode.wall));
+  progress.say(fmt::format("wrote {} images{}{}, run.json and index.html to {} in {}", report.images_written, kept,
+                           strip, folder.path().string(), time_taken(progress, report)));
+}
+
+// What the pictures need to know beforehand: from the scene where it says it all, else from a survey.
+Survey look_ahead(const Run& run, Progress& progress) {
+  if (const auto bounds = given_bounds(run)) return {*bounds, {}};
+  progress.phase("survey");
+  return survey(run, progress);
 }
 
 }  // namespace
@@ -91,30 +96,33 @@ FrameRange range_of(const RenderOptions& options, const Scene& scene) {
 }
 
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
-                 const RenderOptions& options) {
+                 const RenderOptions& options, Progress& progress) {
   const int threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
   catch_interrupts();
   OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
-  Progress progress(options.progress);
+  progress.phase("surfaces");
   const DrawnScene drawn(scene, simulation);
   const Run run{scene, simulation, drawn, choice, options.command};
   say_start(progress, run);
   Warnings warnings = warnings_before(choice);
   say(progress, warnings);
 
-  const Survey found = survey(run, progress);
+  const Survey found = look_ahead(run, progress);
   if (interrupted_by() != 0) return 128 + interrupted_by();
+  progress.phase("render");
   folder.begin_run();
   write_file_atomically(folder.file(RunFile::record), begun_record(scene, options.command));
   const FilmReport report = make_film(run, found.bounds, range_of(options, scene), folder, threads, progress);
-  write_finished_record(folder.file(RunFile::record), run, found, report);
+  progress.phase("writing");
   const Warnings late = warnings_after(run, report);
   say(progress, late);
   warnings.insert(warnings.end(), late.begin(), late.end());
-  write_file_atomically(folder.file(RunFile::page), run_page_html(describe_run(run, found, report, warnings)));
-  say_end(progress, report, found, folder);
+  write_file_atomically(folder.file(RunFile::page), run_page_html(describe_run(run, report, warnings, progress)));
+  // Last, so that its times leave nothing out.
+  write_finished_record(folder.file(RunFile::record), run, found, report, progress);
+  say_end(progress, report, folder);
   if (report.interrupted_by) return 128 + report.interrupted_by;
   if (report.divergence) throw DivergenceError(*report.divergence);
   return 0;

@@ -28,10 +28,10 @@ std::filesystem::path output_of(const RenderOptions& options);
 /// Which frames are drawn. Throws InputError when the scene does not have them.
 FrameRange range_of(const RenderOptions& options, const Scene& scene);
 
-/// Runs a scene that has been read and whose step has been chosen; of options.scene only the name is used, .overrides
-/// not at all. Returns 0, or 128 + a signal that ended it. Throws DivergenceError once all that came before is written,
-/// InputError, OutputError.
+/// Runs a scene that has been read and whose step has been chosen, as further phases of `progress`; of options.scene
+/// only the name is used, .overrides and .progress not at all. Returns 0, or 128 + a signal that ended it. Throws
+/// DivergenceError once all that came before is written, InputError, OutputError.
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
-                 const RenderOptions& options);
+                 const RenderOptions& options, Progress& progress);
 
 }  // namespace billow::cli

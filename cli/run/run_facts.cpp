@@ -40,19 +40,12 @@ std::string solves_text(const sim::SolveCounts& solves) {
                      static_cast<double>(solves.iterations) / static_cast<double>(solves.solves), solves.failures);
 }
 
-std::string seconds_text(const Survey& survey, const FilmReport& report) {
-  return fmt::format(
-      "{:.1f} s: survey {:.1f}; then side by side simulate {:.1f}, draw {:.1f}, encode {:.1f} over all threads",
-      survey.cost.wall + report.total.wall, survey.cost.wall, report.simulate.wall, report.draw.wall,
-      report.encode.wall);
-}
-
 std::string images_text(const FilmReport& report) {
   const std::string kept = report.images_kept ? fmt::format(", {} kept from an earlier run", report.images_kept) : "";
   return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
 }
 
-Facts facts_of(const Run& run, const Survey& survey, const FilmReport& report) {
+Facts facts_of(const Run& run, const FilmReport& report, const Progress& progress) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
   const sim::Structure& structure = run.simulation.structure();
@@ -70,7 +63,7 @@ Facts facts_of(const Run& run, const Survey& survey, const FilmReport& report) {
   if (report.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.solves));
   facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
                              {"Images", images_text(report)},
-                             {"Time taken", seconds_text(survey, report)},
+                             {"Time taken", time_taken(progress, report)},
                              {"Drawn by", report.gl},
                              {"billow", std::string(version())}});
   return facts;
@@ -97,8 +90,19 @@ std::vector<PageNote> notes_of(const Scene& scene, const FilmReport& report, con
 
 }  // namespace
 
-RunPage describe_run(const Run& run, const Survey& survey, const FilmReport& report,
-                     const std::vector<std::string>& warnings) {
+std::string time_taken(const Progress& progress, const FilmReport& report) {
+  std::string phases;
+  for (const auto& [name, seconds] : progress.phases()) {
+    phases += fmt::format("{}{} {:.2f}", phases.empty() ? "" : ", ", name, seconds);
+    if (name == "render")
+      phases += fmt::format(", there side by side simulate {:.2f}, draw {:.2f}, encode {:.2f} over all threads",
+                            report.simulate.wall, report.draw.wall, report.encode.wall);
+  }
+  return fmt::format("{:.2f} s ({})", progress.wall(), phases);
+}
+
+RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,
+                     const Progress& progress) {
   const Scene& scene = run.scene;
   RunPage page;
   page.title = scene.file.stem().string();
@@ -113,7 +117,7 @@ RunPage describe_run(const Run& run, const Survey& survey, const FilmReport& rep
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
-  page.facts = facts_of(run, survey, report);
+  page.facts = facts_of(run, report, progress);
   page.command = run.command;
   page.scene = scene.effective;
   return page;

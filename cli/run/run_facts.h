@@ -11,8 +11,11 @@
 
 namespace billow::cli {
 
+/// The wall clock's time until now, and the phases that it is made of.
+std::string time_taken(const Progress& progress, const FilmReport& report);
+
 /// Everything that run_page_html needs. `warnings` are those that the run printed, without "warning: ".
-RunPage describe_run(const Run& run, const Survey& survey, const FilmReport& report,
-                     const std::vector<std::string>& warnings);
+RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,
+                     const Progress& progress);
 
 }  // namespace billow::cli

@@ -70,6 +70,18 @@ Json frame_record(const FrameRecord& f) {
           {"angular_momentum", list(f.angular_momentum)}};
 }
 
+// The phases, which follow one another and add up to `wall`, and the stages that share "render".
+Json seconds_record(const FilmReport& report, const Progress& progress) {
+  Json json = Json::object();
+  for (const auto& [name, seconds] : progress.phases()) json[name] = seconds;
+  json.emplace("survey", 0.0);  // where the scene made it needless
+  json["simulate"] = report.simulate.wall;
+  json["draw"] = report.draw.wall;
+  json["encode"] = report.encode.wall;
+  json["wall"] = progress.wall();
+  return json;
+}
+
 // The stages' own threads, and what the least wall time on these cores would have been.
 Json processor_record(const Survey& survey, const FilmReport& report) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -91,7 +103,7 @@ std::string begun_record(const Scene& scene, const std::string& command) {
 namespace {
 
 // Everything but the frames.
-Json finished(const Run& run, const Survey& survey, const FilmReport& report) {
+Json finished(const Run& run, const Survey& survey, const FilmReport& report, const Progress& progress) {
   const char* status = report.divergence ? "diverged" : report.interrupted_by ? "interrupted" : "done";
   Json json = begun(run.scene, run.command, status);
   if (report.divergence) json["divergence"] = *report.divergence;
@@ -102,11 +114,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report) {
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;
   json["strip_columns"] = report.strip_columns;
-  json["seconds"] = {{"survey", survey.cost.wall},
-                     {"simulate", report.simulate.wall},
-                     {"draw", report.draw.wall},
-                     {"encode", report.encode.wall},
-                     {"wall", survey.cost.wall + report.total.wall}};
+  json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
   json["gl"] = report.gl;
@@ -121,9 +129,9 @@ void append(AtomicFile& file, std::string_view text) {
 
 // The frames go through memory one by one, so that a film's length does not show there.
 void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
-                           const FilmReport& report) {
+                           const FilmReport& report, const Progress& progress) {
   AtomicFile output(file);
-  const std::string head = finished(run, survey, report).dump(1);
+  const std::string head = finished(run, survey, report, progress).dump(1);
   append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
   append(output, ",\n \"frames\": [");
   const char* separator = "\n  ";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,10 +78,15 @@ struct Scene {
   std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
 };
 
+/// Told of a file that is about to be read.
+using FileWatch = std::function<void(const std::filesystem::path&)>;
+
 /// Reads and fully checks a scene file: syntax, duplicate and unknown keys, types, finiteness, ranges, meshes,
 /// textures, pins. Relative paths are relative to the scene file. Throws InputError, its text starting with
 /// "file:line:column: " (or "-D key.path: "), on the first fault.
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+/// `watch` hears of every mesh and texture before it is read.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                 const FileWatch& watch = {});
 
 /// All bodies of the scene as one structure, in order. Throws InputError located at the mesh of a body that makes no
 /// cloth or soft body.

@@ -20,15 +20,21 @@ void check_file(const fs::path& file, std::string_view kind, const std::string& 
 
 }  // namespace
 
-BodySpec load_body(BodyDraft draft) {
+BodySpec load_body(BodyDraft draft, const FileWatch& watch) {
   BodySpec& spec = draft.spec;
+  const auto tell = [&](const fs::path& file) {
+    if (watch) watch(file);
+  };
   if (!spec.mesh_file.empty()) check_file(spec.mesh_file, "mesh", spec.mesh_where);
   if (!spec.texture_file.empty()) {
     check_file(spec.texture_file, "texture", draft.texture_where);
+    tell(spec.texture_file);
     spec.texture = located(draft.texture_where, [&] { return render::read_png(spec.texture_file); });
   }
-  if (!spec.mesh_file.empty())
+  if (!spec.mesh_file.empty()) {
+    tell(spec.mesh_file);
     place_mesh(located(spec.mesh_where, [&] { return sim::import_mesh(spec.mesh_file); }), draft, spec);
+  }
   return std::move(spec);
 }
 

@@ -48,8 +48,8 @@ struct BodyDraft {
 /// `folder` is what relative paths are relative to; `index` gives a nameless body its name.
 BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record);
 
-/// Opens the mesh and the texture and finds the pins.
-BodySpec load_body(BodyDraft draft);
+/// Opens the mesh and the texture and finds the pins; `watch`, where there is one, hears of both before.
+BodySpec load_body(BodyDraft draft, const FileWatch& watch);
 
 /// `duration` [s] bounds the step.
 SolverSpec read_solver(MapReader& scene, double duration);

@@ -69,7 +69,7 @@ std::string fingerprint(const Scene& scene) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides, const FileWatch& watch) {
   const NodePtr root = with_overrides(read_yaml_file(file), overrides);
   const NodePtr record = make_map();
   MapReader map(*root, keys::section(""), record);
@@ -85,7 +85,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.strip = read_strip(map, scene.duration);
   scene.spectrum = read_spectrum(map, scene.duration, drafts);
   scene.effective = to_yaml(*record);
-  for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft)));
+  for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch));
   scene.hash = fingerprint(scene);
   return scene;
 }

@@ -10,9 +10,11 @@
 #include <ctime>
 
 #include "base/error.h"
+#include "base/process_start.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/measured_run.h"
 #include "cli/run/render_scene.h"
+#include "cli/run/watched_scene.h"
 #include "cli/scene/hash.h"
 #include "cli/text/command_text.h"
 #include "cli/text/version.h"
@@ -88,14 +90,13 @@ void add_times(RunResult& result, const Scene& scene, const Simulation& simulati
 }
 
 void render_run(const Study& study, const StudyRun& run, const Scene& scene, const Simulation& simulation,
-                const StepChoice& choice, const std::filesystem::path& folder) {
+                const StepChoice& choice, const std::filesystem::path& folder, Progress& progress) {
   RenderOptions options;
   options.scene = study.scene;
   options.output = folder / "film";
   options.existing = Existing::overwrite;
-  options.progress = ProgressStyle::none;
   options.command = command_of(study, run);
-  const int status = render_scene(scene, simulation, choice, options);
+  const int status = render_scene(scene, simulation, choice, options, progress);
   if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));
 }
 
@@ -122,17 +123,21 @@ std::string command_of(const Study& study, const StudyRun& run) {
 }
 
 RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder) {
-  const Scene scene = read_scene(study.scene, overrides_of(study, run));
+  Progress progress(ProgressStyle::none, process_start());
+  const Scene scene = read_scene(study.scene, overrides_of(study, run), progress);
   RunResult result{RunStatus::done, run_hash(study, scene), command_of(study, run), "", scene.effective, {}};
+  progress.phase("springs");
   const Simulation simulation(scene);
+  progress.phase("limit");
   // A scheme that grows at every step has limits to report, but no step to run with.
   const bool steps = study.measures.render || study.measures.repeats > 0;
   const StepChoice choice = steps ? simulation.choose_step() : simulation.find_limits();
   add_limits(result, scene, simulation, choice);
+  progress.phase("measuring");
   try {
     if (study.measures.measured) add_measured(result, scene, simulation, choice);
     if (study.measures.repeats > 0) add_times(result, scene, simulation, choice, study.measures.repeats);
-    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder);
+    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, progress);
   } catch (const DivergenceError& error) {
     result.status = RunStatus::diverged;
     result.message = error.what();

@@ -60,6 +60,14 @@ Camera fit_camera(const Camera& camera, const Eigen::AlignedBox3d& box, double a
   return fitted;
 }
 
+Eigen::AlignedBox3d framed_box(const Camera& camera, double aspect) {
+  const Eigen::Vector3d backward = camera.eye - camera.look_at;
+  const double half_height = backward.norm() * std::tan(0.5 * camera.vertical_fov);
+  const Eigen::Vector3d half =
+      axes(backward).cwiseAbs().transpose() * (half_height * Eigen::Vector3d(aspect, 1.0, 1.0));
+  return {camera.look_at - half, camera.look_at + half};
+}
+
 Eigen::Matrix4d view_matrix(const Camera& camera) {
   const Eigen::Matrix3d rotation = axes(camera.eye - camera.look_at);
   Eigen::Matrix4d view = Eigen::Matrix4d::Identity();

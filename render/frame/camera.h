@@ -11,6 +11,10 @@ namespace billow::render {
 /// right and slightly above. A degenerate box is treated as a small one. aspect = width / height.
 Camera fit_camera(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 
+/// The axis-aligned box around what `camera` frames at the distance of the point that it looks at, as deep as it is
+/// high. aspect = width / height.
+Eigen::AlignedBox3d framed_box(const Camera& camera, double aspect);
+
 /// World -> view: the eye at the origin, looking along -z, y up. Looking straight up or down is allowed.
 Eigen::Matrix4d view_matrix(const Camera& camera);
 

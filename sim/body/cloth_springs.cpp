@@ -73,7 +73,9 @@ struct Ring {
 
 // `links` are the lines that bending may run along.
 std::vector<Ring> rings(const Mesh& mesh, const std::vector<Pair>& links) {
+  constexpr std::size_t usual_neighbours = 8;
   std::vector<Ring> ring(mesh.vertices());
+  for (Ring& r : ring) r.neighbour.reserve(usual_neighbours), r.joined.reserve(usual_neighbours);
   for (const auto& [first, second] : links) {
     ring[first].neighbour.push_back(second);
     ring[second].neighbour.push_back(first);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <unsupported/Eigen/BVH>
 
+#include "base/parallel.h"
 #include "sim/mesh/closed_surface.h"
 
 namespace billow::sim {
@@ -18,6 +19,8 @@ using Tree = Eigen::KdBVH<double, 3, int>;
 
 // A ray may miss a triangle by this share of its size and still meet it, so that none slips between two.
 constexpr double edge_tolerance = 1e-9;
+
+constexpr std::size_t rays_per_vertex = 5;
 
 std::vector<Triangle> triangles_of(const Mesh& mesh) {
   std::vector<Triangle> triangles;
@@ -94,7 +97,8 @@ class FirstHit {
 
 // Straight inwards, and at 45 degrees to that towards and away from a neighbour and to both sides of it: the mesh
 // itself decides, so that the directions turn with it.
-std::array<Eigen::Vector3d, 5> inward_rays(const Eigen::Vector3d& normal, const Eigen::Vector3d& to_neighbour) {
+std::array<Eigen::Vector3d, rays_per_vertex> inward_rays(const Eigen::Vector3d& normal,
+                                                         const Eigen::Vector3d& to_neighbour) {
   const Eigen::Vector3d inward = -normal;
   const Eigen::Vector3d flat = to_neighbour - to_neighbour.dot(normal) * normal;
   const Eigen::Vector3d along = flat.norm() > 0.0 ? flat.normalized() : normal.unitOrthogonal();
@@ -125,14 +129,22 @@ std::vector<std::pair<int, int>> interior_pairs(const Mesh& mesh) {
   const Tree tree(number.begin(), number.end(), box.begin(), box.end());
   const Eigen::MatrixX3d normal = outward_normals(mesh);
   const std::vector<int> neighbour = a_neighbour_of_each(mesh);
+  std::vector<std::array<int, rays_per_vertex>> corner(static_cast<std::size_t>(mesh.vertices()));
+  for_each_range(mesh.vertices(), 1, least_part_of_a_pass, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const Eigen::Vector3d to_neighbour = (mesh.position.row(neighbour[v]) - mesh.position.row(v)).transpose();
+      const auto rays = inward_rays(normal.row(v), to_neighbour);
+      for (std::size_t r = 0; r < rays.size(); ++r) {
+        FirstHit hit(mesh, triangles, v, rays[r]);
+        Eigen::BVIntersect(tree, hit);
+        corner[v][r] = hit.corner();
+      }
+    }
+  });
   std::vector<std::pair<int, int>> pairs;
   for (int v = 0; v < mesh.vertices(); ++v)
-    for (const Eigen::Vector3d& ray :
-         inward_rays(normal.row(v), (mesh.position.row(neighbour[v]) - mesh.position.row(v)).transpose())) {
-      FirstHit hit(mesh, triangles, v, ray);
-      Eigen::BVIntersect(tree, hit);
-      if (hit.corner() >= 0) pairs.push_back(std::minmax(v, hit.corner()));
-    }
+    for (const int met : corner[v])
+      if (met >= 0) pairs.push_back(std::minmax(v, met));
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;

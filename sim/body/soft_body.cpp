@@ -2,7 +2,7 @@
 #include "sim/body/soft_body.h"
 
 #include <algorithm>
-#include <set>
+#include <iterator>
 #include <utility>
 
 #include "sim/body/interior_springs.h"
@@ -13,11 +13,13 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-Pairs without_springs_of(const Structure& body, Pairs pairs) {
-  std::set<std::pair<int, int>> taken;
-  for (int s = 0; s < body.springs(); ++s) taken.emplace(body.spring(s, 0), body.spring(s, 1));
-  std::erase_if(pairs, [&](const auto& pair) { return taken.contains(pair); });
-  return pairs;
+// `pairs` ascend.
+Pairs without_springs_of(const Structure& body, const Pairs& pairs) {
+  Pairs taken, rest;
+  for (int s = 0; s < body.springs(); ++s) taken.emplace_back(body.spring(s, 0), body.spring(s, 1));
+  std::sort(taken.begin(), taken.end());
+  std::set_difference(pairs.begin(), pairs.end(), taken.begin(), taken.end(), std::back_inserter(rest));
+  return rest;
 }
 
 void add_interior(const Pairs& pairs, const SoftBodyOptions& options, Structure& body) {

@@ -2,8 +2,6 @@
 #include "sim/drawn/surface.h"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 #include <vector>
 
 #include "sim/mesh/planar_uv.h"
@@ -37,13 +35,16 @@ int split_corner(const Mesh& mesh, const Face& quad) {
 // Corners in the order in which faces first use them.
 class Corners {
  public:
+  explicit Corners(int vertices) : first_(static_cast<std::size_t>(vertices), -1) {}
+
   int number_of(int vertex, const Eigen::Vector2f& uv) {
-    const auto [known, added] = number_.try_emplace({vertex, uv.x(), uv.y()}, static_cast<int>(number_.size()));
-    if (added) {
-      point_.push_back(vertex);
-      uv_.push_back(uv);
-    }
-    return known->second;
+    for (int corner = first_[vertex]; corner >= 0; corner = next_[corner])
+      if (uv_[corner] == uv) return corner;
+    const int number = static_cast<int>(point_.size());
+    point_.push_back(vertex);
+    uv_.push_back(uv);
+    next_.push_back(first_[vertex]);
+    return first_[vertex] = number;
   }
 
   void store(Surface& surface) const {
@@ -53,7 +54,7 @@ class Corners {
   }
 
  private:
-  std::map<std::tuple<int, float, float>, int> number_;
+  std::vector<int> first_, next_;  // a vertex's latest corner, and the one of the same vertex before each corner, or -1
   std::vector<int> point_;
   std::vector<Eigen::Vector2f> uv_;
 };
@@ -73,7 +74,7 @@ void add_triangles(const Mesh& mesh, const Face& face, const std::array<int, 4>&
 
 Surface build_surface(const Mesh& mesh) {
   const std::vector<FaceUv> uv = mesh.uv.empty() ? planar_corner_uvs(mesh) : mesh.uv;
-  Corners corners;
+  Corners corners(mesh.vertices());
   std::vector<Eigen::RowVector3i> triangles;
   for (std::size_t f = 0; f < mesh.face.size(); ++f) {
     const Face& face = mesh.face[f];

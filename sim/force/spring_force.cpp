@@ -89,11 +89,12 @@ void SpringForce::sweep(const State& state, const SpringSink& sink, bool frictio
     return own;
   };
   scratch.pass.prepare();
-  for (const SpringBands& bands : plan_.bands)
+  const SpringPlan& plan = laid_out();
+  for (const SpringBands& bands : plan.bands)
     sweep_bands(bands, columns, sink_of(structure_.body[bands.body]), scratch.pass);
-  for (const SpringSlices& slices : plan_.slices)
+  for (const SpringSlices& slices : plan.slices)
     sweep_slices(slices, columns, sink_of(structure_.body[slices.body]), scratch.pass);
-  for (const int b : plan_.others) {
+  for (const int b : plan.others) {
     const Body& body = structure_.body[b];
     Eigen::MatrixX3d& sum = scratch.springs;
     sum.setZero(body.particles, 3);
@@ -101,6 +102,11 @@ void SpringForce::sweep(const State& state, const SpringSink& sink, bool frictio
     const double* const columns_of_sum[3] = {sum.col(0).data(), sum.col(1).data(), sum.col(2).data()};
     put_sums(sink_of(body).from(body.first_particle), columns_of_sum, 0, body.particles);
   }
+}
+
+const SpringPlan& SpringForce::laid_out() const {
+  std::call_once(once_, [this] { plan_.emplace(structure_); });
+  return *plan_;
 }
 
 double SpringForce::energy(const State& state) const {

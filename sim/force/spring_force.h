@@ -1,6 +1,9 @@
 // Springs and their damping as one law of force.
 #pragma once
 
+#include <mutex>
+#include <optional>
+
 #include "sim/force/force_law.h"
 #include "sim/pass/spring_plan.h"
 #include "sim/pass/spring_sink.h"
@@ -10,10 +13,11 @@ namespace billow::sim {
 struct ForceScratch;
 
 /// f_i = T(|d|) d/|d| + damping, d = x_j - x_i, for every spring of the structure, by each body's model.
-/// The springs are laid out for the vector passes when this is made: the structure must not change after that.
+/// The springs are laid out for the vector passes when they are first swept: the structure must not change once this is
+/// made.
 class SpringForce : public ForceLaw {
  public:
-  explicit SpringForce(const Structure& structure) : structure_(structure), plan_(structure) {}
+  explicit SpringForce(const Structure& structure) : structure_(structure) {}
   std::string_view name() const override { return "the springs"; }
   /// One spring after another: what every sweep must come to.
   void add_force(const State& state, Eigen::MatrixX3d& force) const override;
@@ -34,8 +38,12 @@ class SpringForce : public ForceLaw {
   void sweep(const State& state, const SpringSink& sink, bool friction, ForceScratch& scratch) const;
 
  private:
+  const SpringPlan& laid_out() const;
+
   const Structure& structure_;
-  SpringPlan plan_;
+  // Made by the first sweep, whichever thread it comes from: who only asks for bounds does without.
+  mutable std::once_flag once_;
+  mutable std::optional<SpringPlan> plan_;
 };
 
 /// Springs, their damping and friction at rest: what Forces::bound comes to where nothing else acts, without laying the

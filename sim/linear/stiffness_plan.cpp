@@ -19,15 +19,31 @@ int distance(const Structure& structure, int spring) {
   return structure.spring(spring, 1) - structure.spring(spring, 0);
 }
 
+// In the order of their keys, which end with the spring itself. Keys beside each other: comparing through the structure
+// waits for memory at every comparison.
+template <class KeyOf>
+std::vector<int> sorted_by(const std::vector<int>& springs, const KeyOf& key_of) {
+  std::vector<decltype(key_of(0))> keys;
+  keys.reserve(springs.size());
+  for (const int s : springs) keys.push_back(key_of(s));
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> order;
+  order.reserve(keys.size());
+  for (const auto& key : keys) order.push_back(std::get<std::tuple_size_v<decltype(key_of(0))> - 1>(key));
+  return order;
+}
+
+std::vector<int> all_springs(const Structure& structure) {
+  std::vector<int> all(structure.springs());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 // By block, then by the distance between the ends, then by particle: the springs of a run come one after another.
 std::vector<int> by_distance(const Structure& structure) {
-  std::vector<int> order(structure.springs());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int s) {
+  return sorted_by(all_springs(structure), [&](int s) {
     return std::tuple(block_of(structure, s), distance(structure, s), structure.spring(s, 0), s);
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
-  return order;
+  });
 }
 
 bool continues(const Structure& structure, int spring, int next) {
@@ -36,9 +52,8 @@ bool continues(const Structure& structure, int spring, int next) {
          distance(structure, next) == distance(structure, spring) && way > 0 && way <= 1 + widest_gap;
 }
 
-bool before(const Structure& structure, int a, int b) {
-  return std::tuple(structure.spring(a, 0), structure.spring(a, 1), a) <
-         std::tuple(structure.spring(b, 0), structure.spring(b, 1), b);
+std::vector<int> by_ends(const Structure& structure, const std::vector<int>& springs) {
+  return sorted_by(springs, [&](int s) { return std::tuple(structure.spring(s, 0), structure.spring(s, 1), s); });
 }
 
 }  // namespace
@@ -56,8 +71,7 @@ ProductPlan::ProductPlan(const Structure& structure) : slot(structure.springs())
     else
       loose.insert(loose.end(), order.begin() + begin, order.begin() + end);
   }
-  std::sort(loose.begin(), loose.end(), [&](int a, int b) { return before(structure, a, b); });
-  lay_loose(structure, loose);
+  lay_loose(structure, by_ends(structure, loose));
 }
 
 // Gaps stay empty, and so does what fills the last vector up, as far as there are particles.

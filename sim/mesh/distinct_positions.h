@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace billow::sim {
@@ -23,16 +23,19 @@ class DistinctPositions {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  struct CellHash {
-    std::size_t operator()(const Cell& cell) const;
-  };
 
   Eigen::Array3d scaled(const Eigen::Vector3d& point) const;
+  std::size_t bucket_of(const Cell& cell) const;
+  int find_equal(const Eigen::Vector3d& point) const;
+  void link(int number);
+  void make_room();
 
   Eigen::Vector3d origin_;
   double tolerance_;
   std::vector<Eigen::Vector3d> positions_;
-  std::unordered_multimap<Cell, int, CellHash> cells_;
+  // Chains of positions whose cells share a bucket: the first of each, and the one after each position; -1 ends a
+  // chain.
+  std::vector<int> first_, next_;
 };
 
 }  // namespace billow::sim

@@ -19,14 +19,13 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
+void split_words(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
   for (std::size_t at = 0; (at = line.find_first_not_of(blanks, at)) != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
     words.push_back(line.substr(at, end - at));
     at = end;
   }
-  return words;
 }
 
 void sort_and_unite(std::vector<int>& numbers) {
@@ -41,14 +40,13 @@ class Scanner {
 
   void scan(std::string_view line, int line_number) {
     line_ = line_number;
-    const std::vector<std::string_view> words = words_of(line.substr(0, line.find('#')));
+    split_words(line.substr(0, line.find('#')), words_);
+    const std::vector<std::string_view>& words = words_;
     if (words.empty()) return;
     if (words[0] == "v") add_vertex(words);
     if (words[0] == "vt") check_texture(words);
     if (words[0] == "f") add_face(words);
-    if (words[0] == "g") group_.assign(words.begin() + 1, words.end());
-    if (words[0] == "o") object_ = words.size() > 1 ? words[1] : std::string_view();
-    if (words[0] == "usemtl") material_ = words.size() > 1 ? words[1] : std::string_view();
+    if (words[0] == "g" || words[0] == "o" || words[0] == "usemtl") take_names(words);
   }
 
   // Faces may name vertices that come later, so their range is known only at the end.
@@ -102,24 +100,37 @@ class Scanner {
   }
 
   void add_face(const std::vector<std::string_view>& words) {
+    if (joined_.empty()) find_joined();
     for (std::size_t k = 1; k < words.size(); ++k) {
       const long vertex = corner_vertex(words[k]);
       if (vertex > highest_) {
         highest_ = vertex;
         highest_line_ = line_;
       }
-      for (const std::string& name : group_) join(name, vertex);
-      join(object_, vertex);
-      join(material_, vertex);
+      for (std::vector<int>* members : joined_) members->push_back(static_cast<int>(vertex));
     }
   }
 
-  void join(const std::string& name, long vertex) {
-    if (!name.empty()) found_.group[name].push_back(static_cast<int>(vertex));
+  void take_names(const std::vector<std::string_view>& words) {
+    joined_.clear();
+    if (words[0] == "g")
+      group_.assign(words.begin() + 1, words.end());
+    else
+      (words[0] == "o" ? object_ : material_) = words.size() > 1 ? words[1] : std::string_view();
+  }
+
+  // The members of all names that hold now. Names without a face after them are no groups.
+  void find_joined() {
+    std::vector<std::string> names = group_;
+    names.insert(names.end(), {object_, material_});
+    for (const std::string& name : names)
+      if (!name.empty()) joined_.push_back(&found_.group[name]);
   }
 
   ObjVertices& found_;
   int line_ = 0;
+  std::vector<std::string_view> words_;  // of the line
+  std::vector<std::vector<int>*> joined_;
   std::vector<std::string> group_;
   std::string object_, material_;
   long highest_ = -1;

@@ -21,15 +21,15 @@ struct LocalSprings {
 };
 
 LocalSprings local_springs(const Structure& structure, const Body& body) {
-  LocalSprings local;
-  local.spring.resize(static_cast<std::size_t>(body.springs));
-  std::iota(local.spring.begin(), local.spring.end(), body.first_spring);
-  const auto ends = [&](int s) {
+  std::vector<std::pair<std::pair<int, int>, int>> sorted;  // by ends, then by number
+  sorted.reserve(static_cast<std::size_t>(body.springs));
+  for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
     const int i = structure.spring(s, 0) - body.first_particle, j = structure.spring(s, 1) - body.first_particle;
-    return std::pair(std::min(i, j), std::max(i, j));
-  };
-  std::stable_sort(local.spring.begin(), local.spring.end(), [&](int a, int b) { return ends(a) < ends(b); });
-  for (const int s : local.spring) local.ends.push_back(ends(s));
+    sorted.emplace_back(std::minmax({i, j}), s);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  LocalSprings local;
+  for (const auto& [ends, spring] : sorted) local.ends.push_back(ends), local.spring.push_back(spring);
   return local;
 }
 

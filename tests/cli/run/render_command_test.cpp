@@ -1,4 +1,5 @@
 // billow render from outside: what it writes, what it refuses, how it ends.
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -112,6 +113,46 @@ TEST_F(RenderCommand, DrawsAPartAsInTheWhole) {
   EXPECT_EQ(whole_images("velocity"), 3);
   for (const char* file : {"textured/frame_0005.png", "velocity/frame_0006.png"})
     EXPECT_EQ(test::read_text(film(file)), test::read_text(folder_.path() / "whole" / file)) << file;
+}
+
+// All that a survey would find out.
+const std::vector<std::string> everything_given = {"-D", "render.camera={eye: [0.3, -0.2, 2.6], look_at: [0, -0.4, 0]}",
+                                                   "-D", "render.ground=-1.2",
+                                                   "-D", "render.velocity_range=2"};
+
+TEST_F(RenderCommand, SurveysOnlyWhatItsSceneLeavesOpen) {
+  ASSERT_EQ(render(everything_given).status, 0);
+  EXPECT_EQ(record()["seconds"]["survey"], 0.0);
+  fs::rename(film(""), folder_.path() / "whole");
+  std::vector<std::string> part = everything_given;
+  part.insert(part.end(), {"--frames", "3-4"});
+  ASSERT_EQ(render(part).status, 0);
+  EXPECT_EQ(record()["seconds"]["survey"], 0.0);
+  EXPECT_EQ(whole_images("textured"), 2);
+  for (const char* file : {"textured/frame_0003.png", "textured/frame_0004.png", "velocity/frame_0003.png"})
+    EXPECT_EQ(test::read_text(film(file)), test::read_text(folder_.path() / "whole" / file)) << file;
+  part.insert(part.end(), {"-D", "render.velocity_range=auto", "--overwrite"});
+  ASSERT_EQ(render(part).status, 0);
+  EXPECT_GT(record()["seconds"]["survey"], 0.0);
+}
+
+TEST_F(RenderCommand, AccountsForTheWallClock) {
+  scene(small_scene("{method: fb_euler}", 4.0));
+  const auto begin = std::chrono::steady_clock::now();
+  const ToolResult result = render();
+  const double outside = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const nlohmann::json seconds = record()["seconds"];
+  double phases = 0.0;
+  for (const char* name : {"start", "reading", "springs", "limit", "surfaces", "survey", "render", "writing"})
+    phases += seconds[name].get<double>();
+  EXPECT_NEAR(phases, seconds["wall"], 0.02 * phases);
+  EXPECT_LT(seconds["wall"], 1.02 * outside);
+  EXPECT_GT(seconds["wall"], 0.9 * outside);  // the tool that runs it waits, too
+  for (const char* name :
+       {" s (start ", ", reading ", ", springs ", ", limit ", ", survey ", ", render ", ", writing "})
+    EXPECT_NE(result.errors.find(name, result.errors.find("wrote ")), std::string::npos) << result.errors;
+  EXPECT_NE(test::read_text(film("index.html")).find("limit "), std::string::npos);
 }
 
 // 10,000 frames may take 1 MiB more than the first 100 did; of that the renderer's own buffers take the most.

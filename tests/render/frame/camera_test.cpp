@@ -42,6 +42,25 @@ TEST(FitCamera, PutsTheWholeBoxInsideTheFrameAndTouchesItsMargin) {
     }
 }
 
+// The corners of the frame, seen at the distance of look_at, touch the box from within.
+TEST(FramedBox, HoldsWhatTheCameraShowsAroundItsTarget) {
+  for (const auto& eye : {Eigen::Vector3d(0, 0, 4), Eigen::Vector3d(1.1, 0.05, 3.3), Eigen::Vector3d(0.1, 5, 0)}) {
+    const Camera camera{.eye = eye, .look_at = {0.1, -0.6, 0}, .vertical_fov = 0.6};
+    const double aspect = 16.0 / 9.0;
+    const Eigen::AlignedBox3d box = framed_box(camera, aspect);
+    const Eigen::Matrix4d clip = perspective(camera.vertical_fov, aspect, 1e-2, 1e2) * view_matrix(camera);
+    const double depth = projected(clip, camera.look_at).z();
+    Eigen::AlignedBox3d shown;
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0})
+        shown.extend((clip.inverse() * Eigen::Vector3d(x, y, depth).homogeneous()).hnormalized());
+    EXPECT_TRUE(box.center().isApprox(camera.look_at, 1e-9));
+    const Eigen::AlignedBox3d widened(box.min().array() - 1e-9, box.max().array() + 1e-9);
+    EXPECT_TRUE(widened.contains(shown));
+    EXPECT_LT(box.sizes().maxCoeff(), 2.0 * shown.sizes().maxCoeff());
+  }
+}
+
 TEST(FitCamera, LooksFromTheFrontAndSlightlyFromAbove) {
   const Camera camera = fit_camera({.fitted = true}, boxes[0], 1.5);
   const Eigen::Vector3d back = (camera.eye - camera.look_at).normalized();
