@@ -48,6 +48,12 @@ bool is_damped(const Structure& structure, const Body& body) {
   return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
 }
 
+const Body& body_of(const Structure& structure, int particle) {
+  for (const Body& body : structure.body)
+    if (particle < body.first_particle + body.particles) return body;
+  return structure.body.back();
+}
+
 Structure merge(const std::vector<Structure>& parts) {
   int particles = 0, springs = 0;
   for (const Structure& part : parts) particles += part.particles(), springs += part.springs();

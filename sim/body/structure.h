@@ -58,6 +58,9 @@ struct Structure {
 /// Whether any spring of `body` damps.
 bool is_damped(const Structure& structure, const Body& body);
 
+/// The body that a particle belongs to.
+const Body& body_of(const Structure& structure, int particle);
+
 /// Several structures as one, particles and springs concatenated in order; every solver then steps them together.
 Structure merge(const std::vector<Structure>& parts);
 

@@ -43,12 +43,6 @@ int fastest_particle(const State& state) {
   return fastest;
 }
 
-const Body& body_of(const Structure& structure, int particle) {
-  for (const Body& body : structure.body)
-    if (particle < body.first_particle + body.particles) return body;
-  return structure.body.back();
-}
-
 /// "particle 12 of 'drape'", numbered as the body's mesh is.
 std::string particle_name(const Structure& structure, int particle) {
   const Body& body = body_of(structure, particle);

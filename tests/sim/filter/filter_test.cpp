@@ -288,6 +288,78 @@ Eigen::VectorXd conserving_spectrum(const Structure& structure, const Eigen::Mat
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
 }
 
+Eigen::MatrixXd dense_filter(const Structure& structure, const Filter& filter) {
+  const int n = structure.particles();
+  Eigen::MatrixXd matrix(3 * n, 3 * n);
+  for (int c = 0; c < 3 * n; ++c) {
+    Eigen::MatrixX3d unit = Eigen::MatrixX3d::Zero(n, 3);
+    unit(c / 3, c % 3) = 1.0;
+    test::apply(filter, structure.rest_position, 0.0, unit);
+    for (int r = 0; r < 3 * n; ++r) matrix(r, c) = unit(r / 3, r % 3);
+  }
+  return matrix;
+}
+
+Eigen::VectorXd masses_of_axes(const Structure& structure) {
+  Eigen::VectorXd mass(3 * structure.particles());
+  for (int r = 0; r < mass.size(); ++r) mass(r) = structure.mass(r / 3);
+  return mass;
+}
+
+// A free body's rigid motions pass as they are, so the whole operator is symmetric in the masses' inner product.
+TEST(ConservingFilter, IsSelfAdjointWithItsRigidMotions) {
+  const Structure structure = with_uneven_masses(grid({.width = 4, .height = 3, .spacing = 0.1}), 0.8);
+  const Filter filter(structure, {.lambda = 0.3, .form = FilterForm::conserving});
+  EXPECT_TRUE(filter.self_adjoint());
+  const Eigen::MatrixXd weighted = masses_of_axes(structure).asDiagonal() * dense_filter(structure, filter);
+  EXPECT_LT((weighted - weighted.transpose()).norm(), 1e-13 * weighted.norm());
+  Eigen::MatrixX3d spin(structure.particles(), 3);
+  for (int i = 0; i < structure.particles(); ++i)
+    spin.row(i) = Eigen::RowVector3d(0.3, -1.0, 2.0).cross(structure.rest_position.row(i)) +
+                  Eigen::RowVector3d(4.0, 5.0, 6.0);
+  Eigen::MatrixX3d after = spin;
+  test::apply(filter, structure.rest_position, 0.0, after);
+  EXPECT_LT((after - spin).norm(), 1e-13 * spin.norm());
+}
+
+TEST(Filter, KnowsWhetherItIsSelfAdjointAndHasItsAdjoint) {
+  for (const FilterForm form : all_forms)
+    for (const int passes : {1, 2}) {
+      const Structure structure = with_uneven_masses(grid({.width = 4, .height = 3, .spacing = 0.1}), 0.8);
+      const Filter filter(structure, {.form = form, .passes = passes});
+      EXPECT_EQ(filter.self_adjoint(), form == FilterForm::conserving);
+      const Eigen::VectorXd mass = masses_of_axes(structure);
+      const Eigen::MatrixXd expected = mass.cwiseInverse().asDiagonal() *
+                                       dense_filter(structure, filter).transpose() * mass.asDiagonal();
+      EXPECT_LT((dense_filter(structure, filter.adjoint()) - expected).norm(), 1e-12 * expected.norm());
+    }
+  const Structure even = ring(12, 1.0, 1.0);
+  for (const FilterForm form : all_forms) EXPECT_TRUE(Filter(even, {.form = form}).self_adjoint());
+}
+
+TEST(Filter, FrozenIsWhatItIsAtThatTime) {
+  const Structure structure = with_uneven_masses(grid({.width = 5, .height = 4}), 0.5);
+  for (const FilterForm form : all_forms) {
+    const Filter filter(structure, {.lambda = 2.0, .form = form, .lambda_keys = {{0.0, 1.0}, {4.0, 0.25}}});
+    EXPECT_FALSE(filter.constant_weights());
+    for (const double time : {0.0, 1.0, 4.0}) {
+      const Filter frozen = filter.frozen(time);
+      EXPECT_TRUE(frozen.constant_weights());
+      EXPECT_LT((Eigen::MatrixXd(frozen.weights(structure.rest_position, 0.0)) -
+                 Eigen::MatrixXd(filter.weights(structure.rest_position, time)))
+                    .norm(),
+                1e-14);
+    }
+  }
+}
+
+TEST(FilterOptions, SayWhenTheFilterIsWeakestAndStrongest) {
+  const FilterOptions keyed{.lambda_keys = {{1.0, 0.5}, {2.0, 3.0}, {9.0, 0.1}}};
+  EXPECT_EQ(times_of_extremes(keyed, 10.0), (std::vector<double>{2.0, 9.0}));
+  EXPECT_EQ(times_of_extremes(keyed, 1.5), (std::vector<double>{1.5, 0.0}));  // the later keys never come
+  EXPECT_EQ(times_of_extremes({}, 10.0), std::vector<double>{0.0});
+}
+
 // Symmetric in the masses' inner product and never negative, so a force filter with it leaves every frequency real.
 TEST(ConservingFilter, HasItsSpectrumBetweenZeroAndOne) {
   for (const FilterNeighbours neighbours : {FilterNeighbours::springs, FilterNeighbours::radius})

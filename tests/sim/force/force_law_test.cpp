@@ -106,6 +106,45 @@ TEST(EveryLaw, TakesEnergyOrKeepsItWhereItSaysThatItIsPassiveAndElseGivesSome) {
   });
 }
 
+// The work is what the power over a short while comes to, the change of its own potential energy and what it takes from
+// the motion apart: for muscles all of it, for a current its push times its own velocity.
+TEST(EveryLaw, PutsInTheWorkThatItSays) {
+  for_every_law([](const Case& c) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const State before = shaken(*c.structure, seed);
+      constexpr double h = 1e-5;
+      const State after = moved(before, h);
+      const double work = c.law->work(before, after);
+      if (c.power != Power::gives) {
+        EXPECT_EQ(work, 0.0);
+        continue;
+      }
+      const Eigen::MatrixX3d force = 0.5 * (test::force_of(*c.law, before) + test::force_of(*c.law, after));
+      const double scale = force.norm() * before.velocity.norm() * h;
+      if (c.name == "a current") {
+        EXPECT_NEAR(work, h * force.colwise().sum().dot(current.transpose()), 1e-9 * scale);
+      } else {
+        const double done = h * force.cwiseProduct(before.velocity).sum();
+        EXPECT_NEAR(work, done + c.law->energy(after) - c.law->energy(before), 1e-4 * scale);
+        EXPECT_GT(std::abs(work), 0.0);
+      }
+    }
+  });
+}
+
+TEST(EveryLaw, DampsAtLeastAsMuchAsItSaysAtAnyShape) {
+  for_every_law([](const Case& c) {
+    StiffnessMatrix least(*c.structure);
+    c.law->add_least_damping(least);
+    const Eigen::MatrixXd dense(least.assemble(false));
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Eigen::MatrixXd excess =
+          damping(c, shaken(*c.structure, seed, 0.2), JacobianForm::definite) - dense;
+      EXPECT_GE(test::least_eigenvalue(excess), -1e-9 * (1.0 + dense.norm()));
+    }
+  });
+}
+
 // Whichever place its body has in the whole, a law of one body does to it what it would do alone, and nothing to
 // others.
 TEST(LawOfABody, ActsOnItAsIfItWereAlone) {

@@ -27,7 +27,9 @@ class Thrust : public ForceLaw {
   double energy(const State&) const override { return 0.0; }
   void add_linearisation(const State&, double, double, JacobianForm, StiffnessMatrix&) const override {}
   bool add_bound(Shapes, Linearisation&) const override { return false; }
+  void add_least_damping(StiffnessMatrix&) const override {}
   bool passive() const override { return false; }
+  double work(const State&, const State&) const override { return 0.0; }
   bool join(FusedSweep&) const override { return false; }
 };
 
