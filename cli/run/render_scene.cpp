@@ -68,14 +68,24 @@ std::optional<std::string> warning_of_energy(const Run& run, const FilmReport& r
       100.0 * climb);
 }
 
+// What the conjugate gradient could not do, and what to do instead. Tightening alone costs little and mends all.
+void add_warnings_of_solves(const sim::SolveCounts& solves, Warnings& warnings) {
+  if (solves.by_cholesky > 0)
+    warnings.push_back(
+        fmt::format("the conjugate gradient gave up on {} of {} linear solves, which sparse Cholesky took over; choose "
+                    "'solver.linear_solver: cholesky', raise solver.max_iterations or take a smaller step",
+                    solves.by_cholesky, solves.solves));
+  if (solves.failures > 0)
+    warnings.push_back(fmt::format(
+        "{} of {} linear solves failed, by Cholesky too, so the motion is wrong from the first of them on; take a "
+        "smaller step or softer springs",
+        solves.failures, solves.solves));
+}
+
 Warnings warnings_after(const Run& run, const FilmReport& report) {
   Warnings warnings;
   if (const auto warning = warning_of_energy(run, report)) warnings.push_back(*warning);
-  if (report.solves.failures > 0)
-    warnings.push_back(
-        fmt::format("{} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "
-                    "smaller step",
-                    report.solves.failures, report.solves.solves));
+  add_warnings_of_solves(report.solves, warnings);
   return warnings;
 }
 

@@ -41,6 +41,8 @@ Json solver_record(const Scene& scene, const StepChoice& choice, const FilmRepor
   json["simulated_time"] = report.simulated_time;
   json["linear_solves"] = {{"count", report.solves.solves},
                            {"iterations", report.solves.iterations},
+                           {"tightened", report.solves.tightened},
+                           {"by_cholesky", report.solves.by_cholesky},
                            {"not_converged", report.solves.failures}};
   return json;
 }
