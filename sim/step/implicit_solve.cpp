@@ -48,31 +48,32 @@ void ImplicitSolve::zero_pinned_rows(Eigen::MatrixX3d& field) const {
   for (const int i : pinned_) field.row(i).setZero();
 }
 
-void ImplicitSolve::solve(const Eigen::MatrixX3d& old, const Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity) {
-  b_ = b;
-  zero_pinned_rows(b_);
+void ImplicitSolve::solve(const Eigen::MatrixX3d& old, Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity) {
+  zero_pinned_rows(b);
   ++counts_.solves;
-  const bool iterative = options_.linear_solver == LinearSolver::conjugate_gradient;
-  if (!iterative || !solve_iteratively(old)) {
-    counts_.by_cholesky += iterative;
-    counts_.failures += !solve_directly();
+  if (options_.linear_solver == LinearSolver::conjugate_gradient) {
+    if (solve_iteratively(old, b, velocity)) return;
+    ++counts_.by_cholesky;
   }
+  counts_.failures += !solve_directly(b);
   velocity = old + change_;
 }
 
 // First guess: the change of velocity goes on as the last two steps had it.
-bool ImplicitSolve::solve_iteratively(const Eigen::MatrixX3d& old) {
+bool ImplicitSolve::solve_iteratively(const Eigen::MatrixX3d& old, const Eigen::MatrixX3d& b,
+                                      Eigen::MatrixX3d& velocity) {
   extrapolate(previous_change_, change_);
-  gradient_.start(system_, b_, change_);
-  const bool solved = tighten(old);
+  gradient_.start(system_, b, change_);
+  const bool solved = tighten(old, velocity);
   counts_.iterations += gradient_.iterations();
   return solved;
 }
 
-bool ImplicitSolve::tighten(const Eigen::MatrixX3d& old) {
+bool ImplicitSolve::tighten(const Eigen::MatrixX3d& old, Eigen::MatrixX3d& velocity) {
   double tolerance = options_.tolerance;
   while (gradient_.solve(tolerance, options_.max_iterations) == SolveState::converged) {
-    if (rest_is_harmless(old)) return true;
+    velocity = old + change_;
+    if (rest_is_harmless(velocity)) return true;
     counts_.tightened += tolerance == options_.tolerance;
     tolerance *= 0.1;
     if (tolerance < least_tolerance) break;
@@ -81,18 +82,17 @@ bool ImplicitSolve::tighten(const Eigen::MatrixX3d& old) {
 }
 
 // What the iteration leaves of the system, r = b - A dv, acts on the particles like an impulse -r that no law exerts.
-bool ImplicitSolve::rest_is_harmless(const Eigen::MatrixX3d& old) {
-  velocity_ = old + change_;
-  const Energies twice{weighted_square(structure_.mass, velocity_), weighted_square(structure_.mass, change_)};
-  return (!matrix_.linearised() || rest_is_small(twice)) && !rest_adds_energy(twice);
+bool ImplicitSolve::rest_is_harmless(const Eigen::MatrixX3d& velocity) {
+  const double change = weighted_square(structure_.mass, change_);
+  return (!matrix_.linearised() || rest_is_small(change, velocity)) && !rest_adds_energy(change, velocity);
 }
 
 // Where no spring holds a particle, all of the impulse turns into speed, and of a b that stiff springs dominate a small
 // share is a large one. The linearised step does not mind; but a spring that is turned gets longer with the square of
 // the way, so its energy grows with the fourth power.
-bool ImplicitSolve::rest_is_small(const Energies& twice) const {
-  const double rest = weighted_square(structure_.inverse_mass, gradient_.residual());
-  return rest <= most_rest * twice.change + rounding * twice.kinetic;
+bool ImplicitSolve::rest_is_small(double change, const Eigen::MatrixX3d& velocity) const {
+  const double rest = weighted_square(structure_.inverse_mass, gradient_.residual()) - most_rest * change;
+  return rest <= 0.0 || rest <= rounding * weighted_square(structure_.mass, velocity);
 }
 
 // With v' = v + dv the energy of the linearised motion changes over the step by
@@ -101,16 +101,17 @@ bool ImplicitSolve::rest_is_small(const Energies& twice) const {
 // h v'.C v' + h^2 v'.K v', that is so at the latest when
 //   - v'.r <= 1/2 dv.M dv + 1/2 (v'.A v' - v'.M v').
 // Most solves pass by the first term alone, which needs no product. IMEX has K_L and C_L for K and C, which are larger.
-bool ImplicitSolve::rest_adds_energy(const Energies& twice) {
-  const double gain = -dot(velocity_, gradient_.residual()) - 0.5 * twice.change;
+bool ImplicitSolve::rest_adds_energy(double change, const Eigen::MatrixX3d& velocity) {
+  const double gain = -dot(velocity, gradient_.residual()) - 0.5 * change;
   if (gain <= 0.0) return false;
-  system_.multiply(velocity_, product_);
-  return !(gain <= 0.5 * (dot(velocity_, product_) - twice.kinetic) + rounding * twice.kinetic);
+  system_.multiply(velocity, product_);
+  const double kinetic_twice = weighted_square(structure_.mass, velocity);
+  return !(gain <= 0.5 * (dot(velocity, product_) - kinetic_twice) + rounding * kinetic_twice);
 }
 
 // Where this fails too, the last finite iterate stands.
-bool ImplicitSolve::solve_directly() {
-  if (!matrix_.solve_directly(b_, direct_change_) || !direct_change_.allFinite()) return false;
+bool ImplicitSolve::solve_directly(const Eigen::MatrixX3d& b) {
+  if (!matrix_.solve_directly(b, direct_change_) || !direct_change_.allFinite()) return false;
   change_ = direct_change_;
   return true;
 }

@@ -32,32 +32,28 @@ class ImplicitSolve {
   ImplicitSolve(const ImplicitSolve&) = delete;
   ImplicitSolve& operator=(const ImplicitSolve&) = delete;
 
-  /// The new velocity (n x 3) = old + dv with A dv = b, what A and b are now.
-  void solve(const Eigen::MatrixX3d& old, const Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity);
+  /// The new velocity (n x 3) = old + dv with A dv = b, what A and b are now. Rows of pinned particles in b become
+  /// zero.
+  void solve(const Eigen::MatrixX3d& old, Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity);
 
   const SolveCounts& counts() const { return counts_; }
 
  private:
-  /// Of the new velocity and of the change that led to it.
-  struct Energies {
-    double kinetic, change;
-  };
-
   void zero_pinned_rows(Eigen::MatrixX3d& field) const;
-  bool solve_iteratively(const Eigen::MatrixX3d& old);
-  bool tighten(const Eigen::MatrixX3d& old);
-  bool rest_is_harmless(const Eigen::MatrixX3d& old);
-  bool rest_is_small(const Energies& twice) const;
-  bool rest_adds_energy(const Energies& twice);
-  bool solve_directly();
+  bool solve_iteratively(const Eigen::MatrixX3d& old, const Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity);
+  bool tighten(const Eigen::MatrixX3d& old, Eigen::MatrixX3d& velocity);
+  // `change` is dv.M dv.
+  bool rest_is_harmless(const Eigen::MatrixX3d& velocity);
+  bool rest_is_small(double change, const Eigen::MatrixX3d& velocity) const;
+  bool rest_adds_energy(double change, const Eigen::MatrixX3d& velocity);
+  bool solve_directly(const Eigen::MatrixX3d& b);
 
   const Structure& structure_;
   const IntegratorOptions options_;
   ImplicitMatrix& matrix_;
   LinearSystem system_;  // matrix_ without its pinned rows
   std::vector<int> pinned_;
-  Eigen::MatrixX3d b_, previous_change_, change_, direct_change_;  // (n x 3)
-  Eigen::MatrixX3d velocity_, product_;                            // (n x 3) v' as far as it is known, and A v'
+  Eigen::MatrixX3d previous_change_, change_, direct_change_, product_;  // (n x 3)
   ConjugateGradient gradient_;
   SolveCounts counts_;
 };
