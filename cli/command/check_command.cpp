@@ -5,6 +5,7 @@
 #include "cli/command/commands.h"
 #include "cli/run/watched_scene.h"
 #include "cli/scene/simulation.h"
+#include "cli/scene/step_warnings.h"
 
 namespace billow::cli {
 
@@ -21,11 +22,7 @@ int check_command(const SceneOptions& options) {
   fmt::print(stderr, "{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})\n",
              scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
              structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
-  if (choice.limit && choice.step > *choice.limit)
-    fmt::print(stderr, "warning: the step is {:.4g} s, above the certified limit of {:.4g} s; the run may diverge\n",
-               choice.step, *choice.limit);
-  for (const std::string& law : choice.unbounded)
-    fmt::print(stderr, "warning: the step limit does not count {}, which has no bound; the run may diverge\n", law);
+  for (const std::string& warning : step_warnings(structure, choice)) fmt::print(stderr, "warning: {}\n", warning);
   return exit_done;
 }
 

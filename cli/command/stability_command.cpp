@@ -46,6 +46,7 @@ struct Subject {
   std::optional<sim::Filter> filter;
   sim::EigenvalueEstimate k0;
   std::optional<sim::EigenvalueEstimate> filtered;
+  std::optional<sim::StepSetter> setter;
 };
 
 // A force filter has no place in an implicit scheme.
@@ -117,16 +118,18 @@ Subject make_subject(const Scene& scene, const Simulation& simulation, double ti
   const sim::Structure& structure = simulation.structure();
   const sim::State state = state_at(simulation, time);
   sim::ForceBound any_shape = simulation.forces().bound(sim::Shapes::any);
-  Subject subject{scene,
-                  simulation,
-                  state,
-                  linearised(simulation, state),
-                  std::move(any_shape.linearisation),
-                  simulation.forces().least_damping(),
-                  std::move(any_shape.unbounded),
-                  {},
-                  {},
-                  {}};
+  Subject subject{
+      scene,
+      simulation,
+      state,
+      linearised(simulation, state),
+      std::move(any_shape.linearisation),
+      simulation.forces().least_damping(),
+      std::move(any_shape.unbounded),
+      {},
+      {},
+      {},
+      sim::find_step_setter(structure, simulation.forces().bound(sim::Shapes::rest).linearisation.stiffness)};
   subject.k0 = sim::max_eigenvalue(structure, subject.linearisation.stiffness);
   if (!simulation.filter()) return subject;
   subject.filter.emplace(structure, *simulation.filter());
@@ -162,7 +165,7 @@ std::string shown(const Limit& limit) {
 
 void print_table(const Subject& subject, const std::vector<Row>& rows) {
   const bool has_measured = rows.front().measured.known;
-  fmt::print("k0 = {:.6g} /s² by the power method ({} iterations{})\n", subject.k0.value, subject.k0.iterations,
+  fmt::print("k0 = {:.6g} /s² by Lanczos ({} iterations{})\n", subject.k0.value, subject.k0.iterations,
              subject.k0.converged ? "" : ", NOT converged");
   if (subject.filtered)
     fmt::print("Algorithm 1: {:.6g} /s² with the scene's {} filter ({} iterations{})\n", subject.filtered->value,
@@ -180,6 +183,8 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
       "same for the stiffest that any fold can be. none: no limit found.\n");
   for (const std::string& law : subject.unbounded)
     fmt::print(stderr, "warning: no limit counts {}, which has no bound\n", law);
+  if (subject.setter)
+    fmt::print(stderr, "warning: {}\n", sim::text_of(subject.simulation.structure(), *subject.setter));
 }
 
 }  // namespace

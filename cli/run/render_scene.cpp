@@ -16,6 +16,7 @@
 #include "cli/run/interrupt.h"
 #include "cli/run/run_facts.h"
 #include "cli/run/run_record.h"
+#include "cli/scene/step_warnings.h"
 
 namespace billow::cli {
 
@@ -30,25 +31,22 @@ void say_start(Progress& progress, const Run& run) {
 
 using Warnings = std::vector<std::string>;
 
-Warnings warnings_before(const StepChoice& choice) {
-  Warnings warnings;
-  if (choice.limit && choice.step > *choice.limit)
-    warnings.push_back(
-        fmt::format("the step is above the certified limit of {:.4g} s; the run may diverge", *choice.limit));
-  for (const std::string& law : choice.unbounded)
-    warnings.push_back(fmt::format("the step limit does not count {}, which has no bound; the run may diverge", law));
-  if (choice.only_at_rest())
-    warnings.push_back(
-        "the step is certified at rest only: damping along springs leaves motion across stretched ones undamped, which "
-        "this method makes grow; fluid friction or another method would hold it");
-  if (choice.always_grows)
-    warnings.push_back("this filter makes some motion grow slowly whatever the step; 'form: conserving' does not");
-  if (!choice.k0.converged) warnings.push_back("the search for k0 did not settle; it may be a little too low");
-  return warnings;
-}
-
 void say(Progress& progress, const Warnings& warnings) {
   for (const std::string& warning : warnings) progress.say("warning: " + warning);
+}
+
+// What the conjugate gradient could not do, and what to do instead. Tightening alone costs little and mends all.
+void add_warnings_of_solves(const sim::SolveCounts& solves, Warnings& warnings) {
+  if (solves.by_cholesky > 0)
+    warnings.push_back(
+        fmt::format("the conjugate gradient gave up on {} of {} linear solves, which sparse Cholesky took over; choose "
+                    "'solver.linear_solver: cholesky', raise solver.max_iterations or take a smaller step",
+                    solves.by_cholesky, solves.solves));
+  if (solves.failures > 0)
+    warnings.push_back(fmt::format(
+        "{} of {} linear solves failed, by Cholesky too, so the motion is wrong from the first of them on; take a "
+        "smaller step or softer springs",
+        solves.failures, solves.solves));
 }
 
 Warnings warnings_after(const Run& run, const FilmReport& report) {
@@ -57,11 +55,7 @@ Warnings warnings_after(const Run& run, const FilmReport& report) {
   if (report.largest_strain > sim::suspect_strain)
     warnings.push_back(fmt::format(
         "a spring was stretched by {:.3g} times its rest length, which its stiffness allowed", report.largest_strain));
-  if (report.solves.failures > 0)
-    warnings.push_back(
-        fmt::format("{} of {} linear solves did not reach their tolerance; raise solver.max_iterations or take a "
-                    "smaller step",
-                    report.solves.failures, report.solves.solves));
+  add_warnings_of_solves(report.solves, warnings);
   return warnings;
 }
 
@@ -106,7 +100,7 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
   const DrawnScene drawn(scene, simulation);
   const Run run{scene, simulation, drawn, choice, options.command};
   say_start(progress, run);
-  Warnings warnings = warnings_before(choice);
+  Warnings warnings = step_warnings(simulation.structure(), choice);
   say(progress, warnings);
 
   const Survey found = look_ahead(run, progress);

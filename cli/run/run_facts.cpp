@@ -36,8 +36,12 @@ std::string limits_text(const StepChoice& choice) {
 }
 
 std::string solves_text(const sim::SolveCounts& solves) {
-  return fmt::format("{}, {:.3g} iterations each, {} not converged", solves.solves,
-                     static_cast<double>(solves.iterations) / static_cast<double>(solves.solves), solves.failures);
+  std::string text = fmt::format("{}, {:.3g} iterations each", solves.solves,
+                                 static_cast<double>(solves.iterations) / static_cast<double>(solves.solves));
+  if (solves.tightened > 0)
+    text += fmt::format(", {} beyond their tolerance to keep the energy from rising", solves.tightened);
+  if (solves.by_cholesky > 0) text += fmt::format(", {} handed to Cholesky", solves.by_cholesky);
+  return text + fmt::format(", {} not solved", solves.failures);
 }
 
 std::string images_text(const FilmReport& report) {

@@ -41,7 +41,9 @@ Json watch_record(const Scene& scene, const StepChoice& choice, const FilmReport
   return json;
 }
 
-Json solver_record(const Scene& scene, const StepChoice& choice, const FilmReport& report) {
+Json solver_record(const Run& run, const FilmReport& report) {
+  const Scene& scene = run.scene;
+  const StepChoice& choice = run.choice;
   Json json = {{"method", sim::name(scene.solver.method)},
                {"step", choice.step},
                {"step_from", choice.bound},
@@ -53,9 +55,12 @@ Json solver_record(const Scene& scene, const StepChoice& choice, const FilmRepor
   if (choice.filtered) json["filtered_eigenvalue"] = estimate(*choice.filtered);
   json["steps"] = report.steps;
   json["simulated_time"] = report.simulated_time;
+  json["set_by"] = choice.setter ? Json(sim::text_of(run.simulation.structure(), *choice.setter)) : Json();
   json["watch"] = watch_record(scene, choice, report);
   json["linear_solves"] = {{"count", report.solves.solves},
                            {"iterations", report.solves.iterations},
+                           {"tightened", report.solves.tightened},
+                           {"by_cholesky", report.solves.by_cholesky},
                            {"not_converged", report.solves.failures}};
   return json;
 }
@@ -109,7 +114,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   if (report.divergence) json["divergence"] = *report.divergence;
   json["particles"] = run.simulation.structure().particles();
   json["springs"] = run.simulation.structure().springs();
-  json["solver"] = solver_record(run.scene, run.choice, report);
+  json["solver"] = solver_record(run, report);
   json["velocity_range"] = report.velocity_range;
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;

@@ -115,6 +115,8 @@ StepChoice Simulation::find_limits() const {
   if (solver.step_rule != StepRule::fixed) {  // a given step is only compared with the first
     const sim::StiffnessMatrix least_damping = forces_->least_damping();
     choice.take(certified_limit(forces_->bound(sim::Shapes::any).linearisation, &least_damping), choice.any_shape);
+    if (sim::is_explicit(solver.method))
+      choice.setter = sim::find_step_setter(structure_, at_rest.linearisation.stiffness);
   }
   choice.limit = choice.any_shape_binds() ? choice.any_shape : choice.certified;
   return choice;

@@ -11,6 +11,7 @@
 #include "sim/body/structure.h"
 #include "sim/force/forces.h"
 #include "sim/limit/certificate.h"
+#include "sim/limit/step_setter.h"
 #include "sim/linear/max_eigenvalue.h"
 #include "sim/step/solver.h"
 #include "sim/step/watched_run.h"
@@ -27,6 +28,7 @@ struct StepChoice {
   std::optional<double> certified;                  // [s] of the linearised step at rest
   std::optional<double> any_shape;                  // [s] of the stiffest that any shape can be
   std::vector<std::string> unbounded;               // laws that no limit counts
+  std::optional<sim::StepSetter> setter;            // the place that makes the step much smaller than it is elsewhere
   bool always_grows = false;                        // slowly, at every step alike: the filter's doing
   sim::EigenvalueEstimate k0;                       // [1/s^2]
   std::optional<sim::EigenvalueEstimate> filtered;  // Algorithm 1's alpha [1/s^2] where the scene filters

@@ -250,7 +250,8 @@ std::optional<double> Limits::runge_kutta() const {
 // What IMEX takes explicitly is exceeded by twice what it takes implicitly, unless laws act that it does not know.
 std::optional<double> Limits::imex() {
   Linearisation beyond(step_.structure);
-  add_implicit_part(step_.structure, -2.0, beyond);
+  add_implicit_part(step_.structure, -2.0, 0.0, beyond.stiffness);
+  add_implicit_part(step_.structure, 0.0, -2.0, beyond.damping);
   beyond.stiffness.add_scaled(step_.linearisation.stiffness, 1.0);
   beyond.damping.add_scaled(step_.linearisation.damping, 1.0);
   const LinearisedStep rest{step_.structure, beyond, step_.position, step_.method};

@@ -21,7 +21,10 @@ struct IntegratorOptions {
 
 /// What the linear solves of a run came to. Explicit schemes leave it at zero.
 struct SolveCounts {
-  long solves = 0, iterations = 0, failures = 0;  // failures: not converged within max_iterations
+  long solves = 0, iterations = 0;
+  long tightened = 0;    // conjugate gradient, to less than its tolerance: what was left would have added energy
+  long by_cholesky = 0;  // handed over by a conjugate gradient that broke down, ran out of iterations or stayed harmful
+  long failures = 0;     // by neither
 };
 
 /// How positions go on once the new velocities are final: x += by_old v + by_new v', v and v' being the velocities
