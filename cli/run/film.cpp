@@ -142,8 +142,8 @@ class Film {
       report_.divergence = error.what();
     }
     const sim::Solver& solver = watched->solver();
-    report_.steps = solver.steps();
-    report_.simulated_time = solver.state().time;
+    report_.steps = watched->steps();
+    report_.simulated_time = watched->time();
     report_.solves = solver.solve_counts();
     report_.incidents = watched->incidents();
     report_.largest_strain = solver.largest_strain();

@@ -2,6 +2,7 @@
 #include "cli/scene/simulation.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "base/error.h"
 #include "cli/scene/particle_expression.h"
@@ -73,12 +74,24 @@ std::unique_ptr<sim::Solver> Simulation::make_solver(const StepChoice& choice) c
   return std::make_unique<sim::Solver>(structure_, *forces_, solver_options(choice), initial_);
 }
 
+namespace {
+
+// Steps from one look at the energy to the next. A look costs a step or two, which large cloths take seldom; implicit
+// steps are long.
+int stretch(sim::Method method, const sim::Structure& structure) {
+  constexpr int few_springs = 5000;
+  return !sim::is_explicit(method) ? 4 : structure.springs() <= few_springs ? 16 : 64;
+}
+
+}  // namespace
+
 std::unique_ptr<sim::WatchedRun> Simulation::make_run(const StepChoice& choice,
                                                       sim::WatchedRun::NextTime next_time) const {
   sim::SolverOptions options = solver_options(choice);
   options.max_strain = sim::torn_strain;
   const sim::WatchOptions watch{.changes_step = scene_.solver.watch,
                                 .energy_scale = sim::energy_scale(structure_, *forces_, scene_.gravity, initial_),
+                                .stretch = stretch(scene_.solver.method, structure_),
                                 .from_start = filter_ && filter_->target == sim::FilterTarget::force};
   return std::make_unique<sim::WatchedRun>(structure_, *forces_,
                                            std::make_unique<sim::Solver>(structure_, *forces_, options, initial_),
@@ -103,21 +116,31 @@ void StepChoice::take(const sim::CertifiedStep& found, std::optional<double>& li
   always_grows = always_grows || found.always_grows;
 }
 
+// What does not need the others' results is found side by side.
 StepChoice Simulation::find_limits() const {
   const SolverSpec& solver = scene_.solver;
   StepChoice choice;
   const sim::ForceBound at_rest = forces_->bound(sim::Shapes::rest);
   choice.unbounded = at_rest.unbounded;
-  choice.k0 = sim::max_eigenvalue(structure_, at_rest.linearisation.stiffness);
-  if (operator_) choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.linearisation.stiffness, *operator_);
-  choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
-  choice.take(certified_limit(at_rest.linearisation, nullptr), choice.certified);
-  if (solver.step_rule != StepRule::fixed) {  // a given step is only compared with the first
+  sim::CertifiedStep rest, any{.unlimited = true};
+  const auto find_eigenvalues = [&] {
+    choice.k0 = sim::max_eigenvalue(structure_, at_rest.linearisation.stiffness);
+    if (operator_) choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.linearisation.stiffness, *operator_);
+  };
+  const auto find_any = [&] {
     const sim::StiffnessMatrix least_damping = forces_->least_damping();
-    choice.take(certified_limit(forces_->bound(sim::Shapes::any).linearisation, &least_damping), choice.any_shape);
+    any = certified_limit(forces_->bound(sim::Shapes::any).linearisation, &least_damping);
     if (sim::is_explicit(solver.method))
       choice.setter = sim::find_step_setter(structure_, at_rest.linearisation.stiffness);
-  }
+  };
+  oneapi::tbb::parallel_invoke(
+      find_eigenvalues, [&] { rest = certified_limit(at_rest.linearisation, nullptr); },
+      [&] {
+        if (solver.step_rule != StepRule::fixed) find_any();  // a given step is only compared with the first
+      });
+  choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
+  choice.take(rest, choice.certified);
+  choice.take(any, choice.any_shape);
   choice.limit = choice.any_shape_binds() ? choice.any_shape : choice.certified;
   return choice;
 }

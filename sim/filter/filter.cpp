@@ -105,19 +105,11 @@ void Filter::soften(FilterWeights& weights) const {
   }
 }
 
-// Where lambda is smallest the filter is strongest. The first of several such times.
-double Filter::time_of_smallest_lambda() const {
-  double smallest = 0.0;
-  for (const auto& [time, factor] : options_.lambda_keys)
-    if (factor < lambda_factor(options_, smallest)) smallest = time;
-  return smallest;
-}
-
 // The share of every body's exchange that leaves no eigenvalue of F below 0, where it filters most: F = I - E has the
 // smallest one 1 - (the largest of E).
 void Filter::keep_spectrum_positive() {
   FilterWeights weights;
-  compute_weights(nullptr, time_of_smallest_lambda(), weights);
+  compute_weights(nullptr, times_of_extremes(options_, HUGE_VAL).back(), weights);
   const Eigen::VectorXd largest = largest_exchange(arranged(weights));
   for (std::size_t b = 0; b < structure_.body.size(); ++b)
     strength_.segment(structure_.body[b].first_particle, structure_.body[b].particles)

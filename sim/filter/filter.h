@@ -61,7 +61,6 @@ class Filter {
   void keep_spectrum_positive();
   void set_rest_weights();
   Eigen::VectorXd largest_exchange(const PlacedWeights& weights) const;
-  double time_of_smallest_lambda() const;
   PlacedWeights arranged(const FilterWeights& weights) const;
   const PlacedWeights& weights_at(const Eigen::MatrixX3d& position, double time, FilterScratch& scratch) const;
   void take_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field, FilterScratch& scratch) const;

@@ -12,45 +12,48 @@ namespace billow::sim {
 
 namespace {
 
-// Growth over a run's duration that still counts as stable is e^6; trials that only bracket the limit let four times as
-// fast growth pass, so that they are short.
-constexpr double tolerated_growth = 6.0, bracketing = 4.0;
+// Trials that only bracket the limit let so many times as fast growth pass: they are short.
+constexpr double bracketing = 4.0;
 
 // Steps in units of 2/sqrt(k0): where the search begins, and where it gives up.
-constexpr double first_explicit = 0.4, first_implicit = 0.5, smallest = 0.002, largest = 40.0;
+constexpr double first_explicit = 0.4, first_implicit = 0.5, smallest = 0.01, largest = 40.0;
 
 /// The search for the largest stable step. Explicit schemes have limits of about 2/sqrt(k0), which the search meets in
 /// small steps; implicit ones seldom have any.
 class Search {
  public:
-  Search(GrowthTrial& trial, const LinearisedStep& step, double tolerance)
+  Search(GrowthTrial& trial, const LinearisedStep& step, const CertificateOptions& options)
       : trial_(trial),
         explicit_(is_explicit(step.method)),
         evaluations_(scheme(step.method).evaluations),
-        tolerance_(tolerance),
+        tolerance_(options.step_tolerance),
         unit_(2.0 / trial.omega()),
-        most_growth_(tolerated_growth / step.duration) {}
+        most_growth_(options.tolerated_growth / step.duration) {}
 
   /// From `guess` [s], which may be 0 for none, down to what holds; or up and down.
   CertifiedStep run(double guess) {
-    CertifiedStep found = guess > 0.0 ? at_or_below(guess) : find();
+    CertifiedStep found = guess > 0.0 ? around(guess) : find();
     if (found.step > 0.0 || found.unlimited) return found;
     const double small = first_explicit * unit_ / 8.0, rate = growth(small);
     // At half the step damping and turned forces grow half as fast or slower; a motion that itself grows does not.
     if (!(growth(0.5 * small) > 0.7 * rate)) return found;
     most_growth_ = 2.0 * rate;
-    found = guess > 0.0 ? at_or_below(guess) : find();
+    found = guess > 0.0 ? around(guess) : find();
     found.always_grows = true;
     return found;
   }
 
-  /// Where motions are turned around every step grows, by about as much less a second as it is smaller.
+  /// Where motions are turned around every step grows, by about as much less a second as it is smaller: from the limit
+  /// but for that, down.
   CertifiedStep down_to_slow_growth() {
-    double h = (explicit_ ? first_explicit : first_implicit) * unit_, wanted = h;
+    const CertifiedStep otherwise = find();
+    double h = otherwise.step > 0.0 && !otherwise.unlimited ? otherwise.step
+                                                            : (explicit_ ? first_explicit : first_implicit) * unit_;
+    double wanted = h;
     for (; h > smallest * unit_; h = std::max(wanted, 0.3 * h)) {  // in strides that leave the growth to be seen
       const double now = growth(h);
       if (now <= most_growth_) return at(h);
-      if (!trial_.resolved()) return at(wanted);
+      if (!trial_.resolved()) return at(wanted < smallest * unit_ ? 0.0 : wanted);
       wanted = 0.8 * h * most_growth_ / now;
     }
     return at(0.0);
@@ -79,9 +82,16 @@ class Search {
     return holds(low_) ? at(low_) : retreat();
   }
 
-  CertifiedStep at_or_below(double h) {
-    low_ = h;
-    return holds(h) ? at(h) : retreat();
+  // Down from a guess that does not hold; up from one that leaves room.
+  CertifiedStep around(double guess) {
+    constexpr double room = 1.02;
+    low_ = guess;
+    if (!holds(guess)) return retreat();
+    high_ = room * guess;
+    if (!brackets(high_)) return at(guess);
+    if (!climb()) return at(guess);
+    bisect(bracketing);
+    return holds(low_) ? at(low_) : retreat();
   }
 
   // From a step that does not grow to one that does: the limit is between low and high.
@@ -132,7 +142,7 @@ CertifiedStep smaller(const CertifiedStep& a, const CertifiedStep& b) {
 
 // What the search begins at: the limit of the mean filter. 0 for none.
 double first_guess(const LinearisedStep& step) {
-  if (!is_explicit(step.method) || step.filter->self_adjoint()) return 0.0;
+  if (!is_explicit(step.method)) return 0.0;
   const std::optional<CertifiedStep> mean = limit_of_mean_filter(step);
   return mean ? mean->step : 0.0;
 }
@@ -143,7 +153,7 @@ CertifiedStep certified_with_constant_filter(const LinearisedStep& step, const C
   if (trial.omega() == 0.0) return {.unlimited = true};
   if (!std::isfinite(trial.omega()))
     throw InputError("stiffness over mass is beyond what a step can be found for; check masses and stiffnesses");
-  Search search(trial, step, options.step_tolerance);
+  Search search(trial, step, options);
   if (!turns_motions_around(step)) return search.run(first_guess(step));
   return step.filter->options().target == FilterTarget::force ? CertifiedStep{} : search.down_to_slow_growth();
 }

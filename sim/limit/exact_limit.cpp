@@ -26,10 +26,16 @@ constexpr double eigenvalue_tolerance = 1e-4, step_tolerance = 5e-5;
 constexpr int most_iterations = 400;
 
 // Steps beyond which no search goes, in units of 2 / sqrt(k0), and the smallest limit that is still of use.
-constexpr double largest_tried = 40.0, smallest_tried = 1e-7, least_of_use = 1e-3;
+constexpr double largest_tried = 40.0, smallest_tried = 1e-7, least_of_use = 1e-2;
 
 // Growth that comes to less than this factor's logarithm within the run's duration is none.
 constexpr double allowed_growth = 0.1;
+
+constexpr double filter_tolerance = 1e-3;
+
+bool filters_velocity(const LinearisedStep& step) {
+  return step.filter && step.filter->options().target == FilterTarget::velocity;
+}
 
 /// (F + F*) / 2
 class MeanFilter {
@@ -74,15 +80,26 @@ class Spectrum {
   int found() const { return found_; }
 
   /// The largest one of the condition's. Its error is below `tolerance` of itself or of `scale`, whichever is larger.
-  ExtremeEigenvalue largest(const Condition& c, double scale = 0.0, double tolerance = eigenvalue_tolerance) {
+  ExtremeEigenvalue largest(const Condition& c, double scale = 0.0) {
+    return find(c, {.tolerance = eigenvalue_tolerance, .scale = scale, .max_iterations = most_iterations});
+  }
+
+  /// Whether it is at most `most`, where motions that nothing resists are at most right beside that.
+  bool at_most(const Condition& c, double most, double scale) {
+    constexpr double fine = 1e-5;
+    constexpr int iterations = 150;
+    return find(c, {.tolerance = fine, .scale = scale, .stop_above = most, .max_iterations = iterations}).value <= most;
+  }
+
+ private:
+  ExtremeEigenvalue find(const Condition& c, const LanczosOptions& options) {
     ++found_;
     SymmetricProduct product{
         .outer = [this, c](const auto& x, auto& y) { multiply(c, x, y); }, .inner = {}, .inner_mass = inner_mass_};
     if (filter_) product.inner = [this](const auto& x, auto& y) { filter_->apply(x, 1.0, y); };
-    return largest_eigenvalue(product, {.tolerance = tolerance, .scale = scale, .max_iterations = most_iterations});
+    return largest_eigenvalue(product, options);
   }
 
- private:
   void multiply(const Condition& c, const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
     y = -c.shift * x;
     if (c.stiffness != 0.0) add(step_.linearisation.stiffness, c.stiffness, x, y);
@@ -109,7 +126,7 @@ class Limits {
   Limits(const LinearisedStep& step, const Filter* adjoint)
       : step_(step),
         adjoint_(adjoint),
-        filters_velocity_(step.filter && step.filter->options().target == FilterTarget::velocity),
+        filters_velocity_(filters_velocity(step)),
         spectrum_(step, step.linearisation.damping, mean_filter()) {
     const double k0 = spectrum_.largest({.stiffness = 1.0}).upper();
     unit_ = k0 > 0.0 ? 2.0 / std::sqrt(k0) : INFINITY;
@@ -158,7 +175,7 @@ class Limits {
   std::optional<double> runge_kutta() const;
   std::optional<double> imex();
   std::optional<double> forward_euler();
-  double without_gain(Spectrum& spectrum);
+  double without_gain();
   double before_overshoot(double most);
 
   const LinearisedStep& step_;
@@ -177,6 +194,7 @@ std::optional<double> Limits::root(Spectrum& spectrum, const ConditionAt& condit
     if (h > largest_tried * first_guess()) return std::nullopt;
     if (h < smallest_tried * first_guess()) return 0.0;
     const double now = excess(spectrum, condition(h));
+    if (std::isnan(now)) return 0.0;
     if (now <= 0.0)
       low = h, low_excess = now, h *= now < -0.5 ? 1.5 : 1.02 / std::sqrt(1.0 + now);
     else
@@ -262,36 +280,25 @@ std::optional<double> Limits::imex() {
   return root(spectrum, [](double h) { return Condition{h * h, 2.0 * h, 0.0, 4.0}; });
 }
 
-// The largest h at which forward Euler adds no more to any motion's energy than damping takes out, with a force filter
-// or without: a growth of (h a - c) / 2 a second. `spectrum` has no filter.
-double Limits::without_gain(Spectrum& spectrum) {
+// The largest h up to which forward Euler adds no more to any motion's energy than damping takes out: without a filter
+// or with one of forces, which both suffer alike, a growth of (h a - c) / 2 a second; with one of velocities,
+// (h^2 a - h c + 1) / p a step. 0 where that is too small to be of use.
+double Limits::without_gain() {
+  const StiffnessMatrix& damping = step_.least_damping ? *step_.least_damping : step_.linearisation.damping;
   const double rate = 2.0 * allowed_growth / step_.duration;
-  const double k0 = spectrum.largest({.stiffness = 1.0}).upper();
-  if (!spectrum.damped()) return rate / k0;
-  return last_that_holds(largest_tried * first_guess(), [&](double h) {
-    constexpr double fine = 1e-5;  // motions that nothing resists are at 0, right beside the limit
-    return spectrum.largest({.stiffness = h, .damping = -1.0}, h * k0, fine).value <= rate;
-  });
+  Spectrum gains(step_, damping, filters_velocity_ ? mean_filter() : std::nullopt);
+  const double k0 = 4.0 / (unit_ * unit_);
+  const auto holds = [&](double h) {
+    return filters_velocity_ ? gains.at_most({.stiffness = h * h, .damping = -h, .shift = -1.0}, 1.0 + rate * h, 1.0)
+                             : gains.at_most({.stiffness = h, .damping = -1.0}, rate, h * k0);
+  };
+  return holds(least_of_use * unit_) ? last_that_holds(largest_tried * unit_, holds) : 0.0;
 }
 
 std::optional<double> Limits::forward_euler() {
   if (std::isinf(unit_)) return root(spectrum_, [](double h) { return Condition{0.0, 2.0 * h, 0.0, 4.0}; });
-  const StiffnessMatrix& damping = step_.least_damping ? *step_.least_damping : step_.linearisation.damping;
-  double limit = 0.0;
-  if (filters_velocity_) {
-    Spectrum gains(step_, damping, mean_filter());
-    limit = last_that_holds(largest_tried * unit_, [&](double h) {
-      const double most = 1.0 + 2.0 * allowed_growth * h / step_.duration;
-      constexpr double fine = 1e-5;
-      return gains.largest({.stiffness = h * h, .damping = -h, .shift = -1.0}, 1.0, fine).value <= most;
-    });
-  } else {
-    Spectrum gains(step_, damping, std::nullopt);
-    limit = without_gain(gains);
-  }
-  if (limit < least_of_use * unit_) return 0.0;
-  if (c0_ == 0.0) return limit;
-  return std::min(limit, before_overshoot(limit));
+  const double limit = without_gain();
+  return c0_ == 0.0 || limit == 0.0 ? limit : std::min(limit, before_overshoot(limit));
 }
 
 // The largest h up to `most` at which damping turns no motion around. What is stiff is turned around later, unless only
@@ -311,7 +318,6 @@ double Limits::before_overshoot(double most) {
   return low;
 }
 
-constexpr double filter_tolerance = 1e-3;
 
 bool lets_all_pass_upright(const LinearisedStep& step, const Filter& adjoint) {
   MeanFilter mean(step, &adjoint);
@@ -323,8 +329,10 @@ bool lets_all_pass_upright(const LinearisedStep& step, const Filter& adjoint) {
 }  // namespace
 
 std::optional<CertifiedStep> exact_limit(const LinearisedStep& step) {
-  if (step.filter && !step.filter->self_adjoint()) return std::nullopt;
-  if (step.filter && !is_explicit(step.method)) return std::nullopt;
+  if (step.filter && (!is_explicit(step.method) || !step.filter->self_adjoint() || turns_motions_around(step)))
+    return std::nullopt;
+  // Sufficient only, and by far where A and C do not commute with F.
+  if (step.method == Method::forward_euler && filters_velocity(step)) return std::nullopt;
   return Limits(step, nullptr).find();
 }
 

@@ -9,7 +9,7 @@ namespace billow::sim {
 
 /// The largest h up to which the linearised step does not grow, from the safe side of its eigenvalues' error bounds.
 /// Nothing where there is no such closed form: for filters that are not self-adjoint in the masses' inner product, and
-/// where RK4 or an implicit scheme filters velocities.
+/// where forward Euler, RK4 or an implicit scheme filters velocities.
 ///
 /// For any eigenvector of the step, let a, c and p >= 1 be its Rayleigh quotients of A = M^-1 K, C = M^-1 (damping) and
 /// F^-1. Its growth factor then solves a quadratic whose coefficients must lie in the stability triangle:
@@ -17,7 +17,7 @@ namespace billow::sim {
 ///     FB Euler, Verlet, force filter or none   h^2 A + 2 h C <= 4 F^-1
 ///     FB Euler, Verlet, velocity filter        h^2 A + 2 h C <= 2 (F^-1 + I)
 ///     forward Euler, force filter or none      h A <= C,  2 h C <= 4 F^-1 + h^2 A
-///     forward Euler, velocity filter           h^2 A <= h C + F^-1 - I,  2 h C <= 2 (F^-1 + I) + h^2 A
+///     forward Euler, velocity filter           h^2 A <= h C + F^-1 - I,  2 h C <= 2 (F^-1 + I) + h^2 A: left to trials
 ///     RK4, force filter or none                z^2 + h c z + h^2 a = 0 inside RK4's region of stability
 ///     IMEX, no filter                          2 h C + h^2 K <= 4 M + 4 h C_L + 2 h^2 K_L, L what it takes implicitly
 ///     backward Euler, no filter                always

@@ -1,7 +1,6 @@
 // Lanczos's three-term recurrence. The basis is not kept: lost orthogonality only repeats eigenvalues already found.
 #include "sim/linear/lanczos.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -62,19 +61,63 @@ class Recurrence {
   bool started_ = false;
 };
 
-/// The tridiagonal matrix that the recurrence makes, and its largest eigenvalue.
+/// The tridiagonal matrix T that the recurrence makes, its largest eigenvalue and that one's vector.
 struct Tridiagonal {
-  std::vector<double> alpha, beta;  // beta[k] joins k and k + 1
+  std::vector<double> alpha, beta;  // beta[k] joins k and k + 1; the last joins nothing yet
   double largest = 0.0;
-  Eigen::VectorXd weight;  // the eigenvector
+  std::vector<double> weight;  // unit vector
 
   void solve() {
-    const auto size = static_cast<Eigen::Index>(alpha.size());
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(alpha.data(), size),
-                                  Eigen::Map<const Eigen::VectorXd>(beta.data(), size - 1));
-    largest = solver.eigenvalues()(size - 1);
-    weight = solver.eigenvectors().col(size - 1);
+    find_largest();
+    find_vector();
+  }
+
+ private:
+  std::size_t size() const { return alpha.size(); }
+  double joint(std::size_t k) const { return beta[k]; }
+
+  // Whether T has an eigenvalue above x: whether a pivot of T - x is positive (Sturm).
+  bool reaches_above(double x) const {
+    double pivot = alpha[0] - x;
+    for (std::size_t k = 1; k < size() && pivot <= 0.0; ++k)
+      pivot = alpha[k] - x - joint(k - 1) * joint(k - 1) / std::min(pivot, -1e-300);
+    return pivot > 0.0;
+  }
+
+  void find_largest() {
+    double low = *std::max_element(alpha.begin(), alpha.end()), high = low, widest = 0.0;
+    for (std::size_t k = 0; k < size(); ++k) {  // Gershgorin
+      const double radius = (k > 0 ? joint(k - 1) : 0.0) + (k + 1 < size() ? joint(k) : 0.0);
+      high = std::max(high, alpha[k] + radius);
+      widest = std::max(widest, std::abs(alpha[k]) + radius);
+    }
+    for (int step = 0; step < 200 && high - low > 1e-16 * widest; ++step) {
+      const double middle = 0.5 * (low + high);
+      (reaches_above(middle) ? low : high) = middle;
+    }
+    largest = high;
+  }
+
+  // From pivots downwards and upwards that meet where the vector is largest (a twisted factorisation).
+  void find_vector() {
+    const std::size_t n = size();
+    std::vector<double> down(n), up(n);
+    const auto pivot = [](double value) { return std::min(value, -1e-300); };
+    for (std::size_t k = 0; k < n; ++k)
+      down[k] = pivot(alpha[k] - largest - (k > 0 ? joint(k - 1) * joint(k - 1) / down[k - 1] : 0.0));
+    for (std::size_t k = n; k-- > 0;)
+      up[k] = pivot(alpha[k] - largest - (k + 1 < n ? joint(k) * joint(k) / up[k + 1] : 0.0));
+    std::size_t twist = 0;
+    double least = INFINITY;
+    for (std::size_t k = 0; k < n; ++k)
+      if (const double meeting = std::abs(down[k] + up[k] - (alpha[k] - largest)); meeting < least)
+        least = meeting, twist = k;
+    weight.assign(n, 1.0);
+    for (std::size_t k = twist; k-- > 0;) weight[k] = -joint(k) / down[k] * weight[k + 1];
+    for (std::size_t k = twist; k + 1 < n; ++k) weight[k + 1] = -joint(k) / up[k + 1] * weight[k];
+    double square = 0.0;
+    for (const double w : weight) square += w * w;
+    for (double& w : weight) w /= std::sqrt(square);
   }
 };
 
@@ -83,7 +126,7 @@ constexpr double rounding = 1e-14;
 
 }  // namespace
 
-// Solving the small problem costs the cube of its size, so it is done at sizes that grow by an eighth.
+// The small problem is solved at sizes that grow by an eighth.
 ExtremeEigenvalue largest_eigenvalue(const SymmetricProduct& product, const LanczosOptions& options,
                                      Eigen::MatrixX3d* vector) {
   Recurrence recurrence(product, options.seed);
@@ -102,8 +145,9 @@ ExtremeEigenvalue largest_eigenvalue(const SymmetricProduct& product, const Lanc
     look = found.iterations + std::max(4, found.iterations / 8);
     t.solve();
     found.value = t.largest;
-    found.error = t.beta.back() * std::abs(t.weight.tail<1>()(0));
-    found.converged = ended || found.error <= options.tolerance * std::max(std::abs(t.largest), options.scale);
+    found.error = t.beta.back() * std::abs(t.weight.back());
+    found.converged = ended || t.largest > options.stop_above ||
+                      found.error <= options.tolerance * std::max(std::abs(t.largest), options.scale);
     if (!std::isfinite(found.value)) break;
   }
   if (vector) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #include "sim/linear/particle_operator.h"
@@ -17,8 +18,9 @@ struct SymmetricProduct {
 };
 
 struct LanczosOptions {
-  double tolerance = 1e-4;  // of the error bound, as a share of the largest eigenvalue's magnitude and of `scale`
-  double scale = 0.0;       // what the eigenvalue is compared with: an eigenvalue near 0 need not be known better
+  double tolerance = 1e-4;       // of the error bound, as a share of the largest eigenvalue's magnitude and of `scale`
+  double scale = 0.0;            // what the eigenvalue is compared with: an eigenvalue near 0 need not be known better
+  double stop_above = HUGE_VAL;  // an eigenvalue known to be above this need not be known better
   int max_iterations = 1000;
   std::uint64_t seed = 1;
 };

@@ -70,13 +70,14 @@ void WatchedRun::run_stretch() {
   }
 }
 
-// Up to `end`, or, where no more states are wanted, up to the last of `times`.
+// To `end` also where no more states are wanted: what is judged must not depend on what is.
 WatchedRun::Attempt WatchedRun::attempt(const std::vector<double>& times, double end) {
   Attempt result;
   const double begin = energy();
   try {
     for (const double time : times) result.samples.push_back({time, solver_->sample(time)});
-    while (std::isfinite(upcoming_) && solver_->state().time < end - 0.5 * solver_->step()) solver_->advance();
+    result.steps = solver_->steps(), result.time = solver_->state().time;
+    while (solver_->state().time < end - 0.5 * solver_->step()) solver_->advance();
     result.outcome = judge();
   } catch (const DivergenceError&) {
     result.outcome = Outcome::divergence;
@@ -107,6 +108,7 @@ void WatchedRun::halve(const Attempt& failed, const Solver::Checkpoint& good) {
 }
 
 void WatchedRun::accept(Attempt attempt, bool at_once) {
+  steps_ = attempt.steps, time_ = attempt.time;
   for (Sample& sample : attempt.samples) ready_.push_back(std::move(sample));
   if (!options_.from_start) baseline_ = std::min(baseline_, energy());
   if (incident_open_) incidents_.back().end = solver_->state().time;
@@ -130,6 +132,7 @@ void WatchedRun::accept_unexplained(Attempt attempt, const Solver::Checkpoint& g
 
 void WatchedRun::give_up(Attempt attempt) {
   divergence_ = solver_->divergence_text(cause());
+  steps_ = solver_->steps(), time_ = solver_->state().time;
   for (Sample& sample : attempt.samples) ready_.push_back(std::move(sample));
 }
 

@@ -17,8 +17,8 @@ struct WatchOptions {
   bool changes_step = true;    // otherwise trouble is only written down
   double energy_scale = 0.0;   // [J] what the run can turn over; 0: its energy is not watched
   double energy_share = 0.02;  // of it by which the energy may climb
-  bool from_start = false;     // climbs count from the first energy instead of the lowest so far
   int stretch = 64;            // steps from one good state to the next
+  bool from_start = false;     // climbs count from the first energy instead of the lowest so far
 };
 
 /// Something that went wrong, and what was done.
@@ -59,6 +59,10 @@ class WatchedRun {
 
   const std::vector<Incident>& incidents() const { return incidents_; }
   const Solver& solver() const { return *solver_; }
+  /// Steps that the states wanted so far took, those thrown away and those beyond the last left out, and the time [s] of
+  /// the last of them.
+  long steps() const { return steps_; }
+  double time() const { return time_; }
 
  private:
   enum class Outcome { good, energy, divergence };
@@ -66,6 +70,8 @@ class WatchedRun {
   struct Attempt {
     Outcome outcome = Outcome::good;
     double rise = 0.0;  // [J] of the energy over the stretch
+    long steps = 0;     // taken by the last of the samples,
+    double time = 0.0;  // [s] and when that was
     std::vector<Sample> samples;
   };
 
@@ -90,6 +96,8 @@ class WatchedRun {
   double baseline_ = 0.0;           // [J] that climbs count from
   double thrown_ = 0.0;             // [J] kinetic energy at the start
   int calm_ = 0, calm_needed_ = 2;  // stretches without trouble at a halved step, and how many it takes
+  long steps_ = 0;
+  double time_ = 0.0;
   bool incident_open_ = false;      // the last one: steps are still halved
   std::deque<Sample> ready_;
   std::optional<std::string> divergence_;

@@ -315,8 +315,8 @@ TEST(ConservingFilter, IsSelfAdjointWithItsRigidMotions) {
   EXPECT_LT((weighted - weighted.transpose()).norm(), 1e-13 * weighted.norm());
   Eigen::MatrixX3d spin(structure.particles(), 3);
   for (int i = 0; i < structure.particles(); ++i)
-    spin.row(i) = Eigen::RowVector3d(0.3, -1.0, 2.0).cross(structure.rest_position.row(i)) +
-                  Eigen::RowVector3d(4.0, 5.0, 6.0);
+    spin.row(i) =
+        Eigen::RowVector3d(0.3, -1.0, 2.0).cross(structure.rest_position.row(i)) + Eigen::RowVector3d(4.0, 5.0, 6.0);
   Eigen::MatrixX3d after = spin;
   test::apply(filter, structure.rest_position, 0.0, after);
   EXPECT_LT((after - spin).norm(), 1e-13 * spin.norm());
@@ -329,8 +329,8 @@ TEST(Filter, KnowsWhetherItIsSelfAdjointAndHasItsAdjoint) {
       const Filter filter(structure, {.form = form, .passes = passes});
       EXPECT_EQ(filter.self_adjoint(), form == FilterForm::conserving);
       const Eigen::VectorXd mass = masses_of_axes(structure);
-      const Eigen::MatrixXd expected = mass.cwiseInverse().asDiagonal() *
-                                       dense_filter(structure, filter).transpose() * mass.asDiagonal();
+      const Eigen::MatrixXd expected =
+          mass.cwiseInverse().asDiagonal() * dense_filter(structure, filter).transpose() * mass.asDiagonal();
       EXPECT_LT((dense_filter(structure, filter.adjoint()) - expected).norm(), 1e-12 * expected.norm());
     }
   const Structure even = ring(12, 1.0, 1.0);
@@ -355,7 +355,7 @@ TEST(Filter, FrozenIsWhatItIsAtThatTime) {
 
 TEST(FilterOptions, SayWhenTheFilterIsWeakestAndStrongest) {
   const FilterOptions keyed{.lambda_keys = {{1.0, 0.5}, {2.0, 3.0}, {9.0, 0.1}}};
-  EXPECT_EQ(times_of_extremes(keyed, 10.0), (std::vector<double>{2.0, 9.0}));
+  EXPECT_EQ(times_of_extremes(keyed, 10.0), (std::vector<double>{2.0, 10.0}));
   EXPECT_EQ(times_of_extremes(keyed, 1.5), (std::vector<double>{1.5, 0.0}));  // the later keys never come
   EXPECT_EQ(times_of_extremes({}, 10.0), std::vector<double>{0.0});
 }

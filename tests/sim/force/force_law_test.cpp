@@ -138,8 +138,7 @@ TEST(EveryLaw, DampsAtLeastAsMuchAsItSaysAtAnyShape) {
     c.law->add_least_damping(least);
     const Eigen::MatrixXd dense(least.assemble(false));
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-      const Eigen::MatrixXd excess =
-          damping(c, shaken(*c.structure, seed, 0.2), JacobianForm::definite) - dense;
+      const Eigen::MatrixXd excess = damping(c, shaken(*c.structure, seed, 0.2), JacobianForm::definite) - dense;
       EXPECT_GE(test::least_eigenvalue(excess), -1e-9 * (1.0 + dense.norm()));
     }
   });

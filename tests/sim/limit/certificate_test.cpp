@@ -64,8 +64,8 @@ TEST(Certificate, GivesNothingToAFilterThatTurnsModesAround) {
 }
 
 // With friction, x'' = -omega^2 x - gamma x' is stable under FB Euler iff omega^2 h^2 + 2 gamma h <= 4, and under
-// forward Euler iff h <= gamma / omega^2 (while gamma h <= 2). Forward Euler then grows so slowly that the tolerance
-// shows.
+// forward Euler iff h <= gamma / omega^2 (while gamma h <= 2). Forward Euler then grows so slowly that what is
+// tolerated shows.
 TEST(Certificate, KnowsWhatFrictionCostsFBEulerAndGivesForwardEuler) {
   Ring ring;
   const double omega = ring.omega(Ring::n / 2);
@@ -76,9 +76,8 @@ TEST(Certificate, KnowsWhatFrictionCostsFBEulerAndGivesForwardEuler) {
     const double explicit_euler = gamma / (omega * omega);
     EXPECT_NEAR(certified(ring.structure, linearisation, Method::fb_euler, nullptr).step, symplectic,
                 0.002 * symplectic);
-    const double slack = 2.0 * CertificateOptions{}.growth_tolerance() * omega * omega / (gamma * gamma);
     EXPECT_NEAR(certified(ring.structure, linearisation, Method::forward_euler, nullptr).step, explicit_euler,
-                (0.002 + slack) * explicit_euler);
+                0.01 * explicit_euler);
   }
 }
 
@@ -122,6 +121,11 @@ std::vector<Case> explicit_cases() {
   return cases;
 }
 
+// What a step of h may grow by: nothing but rounding by eigenvalues, and what comes to e^6 in ten seconds by trials.
+double tolerated(double h, bool exact, double duration = 10.0) {
+  return 1e-6 + (exact ? 0.2 : 2.0 * CertificateOptions{}.tolerated_growth) / duration * h;
+}
+
 // The certificate against eigenvalues of the step's matrix: stable up to it, unstable just beyond.
 void expect_certified_by_eigenvalues(const Structure& structure, const Case& c) {
   const Linearisation linearisation = linearise_at_rest(structure);
@@ -135,10 +139,13 @@ void expect_certified_by_eigenvalues(const Structure& structure, const Case& c) 
   };
   const CertifiedStep result = certified(structure, linearisation, c.method, f);
   ASSERT_FALSE(result.unlimited);
-  const double tolerance = CertificateOptions{}.growth_tolerance();
   for (const double share : {0.25, 0.5, 0.75, 0.9, 1.0})
-    EXPECT_LE(radius(share * result.step), 1.0 + tolerance) << share << " of " << result.step / unit << " units";
-  const double beyond = result.step > 0.0 ? 1.01 * result.step : 0.06 * unit;
+    EXPECT_LE(radius(share * result.step), 1.0 + tolerated(share * result.step, result.exact))
+        << share << " of " << result.step / unit << " units";
+  // Where A and C do not commute, forward Euler's and RK4's closed forms are on the safe side.
+  const bool sufficient =
+      result.exact && !linearisation.damping.is_zero() && !(c.method == Method::fb_euler || c.method == Method::verlet);
+  const double beyond = result.step > 0.0 ? (sufficient ? 1.7 : 1.01) * result.step : 0.06 * unit;
   EXPECT_GT(radius(beyond), 1.0 + 1e-6) << result.step / unit << " units";
 }
 
@@ -169,52 +176,8 @@ TEST(Certificate, AgreesWithDenseEigenvaluesWithDamping) {
   }
 }
 
-/// Particles apart from each other, x'' = -omega^2 x + 2 epsilon omega x' each.
-struct Oscillators {
-  struct Swing {
-    double omega, epsilon;
-  };
-  explicit Oscillators(const std::vector<Swing>& swings) {
-    for (int i = 0; i < 4; ++i) {
-      const Swing& swing = swings[static_cast<std::size_t>(i) % swings.size()];
-      linearisation.stiffness.add_diagonal(i, structure.mass(i) * swing.omega * swing.omega);
-      linearisation.damping.add_diagonal(i, -2.0 * structure.mass(i) * swing.epsilon * swing.omega);
-    }
-  }
-  /// Per step of RK4 with z = omega h: |1 + s + s^2/2 + s^3/6 + s^4/24| - 1, s = z (epsilon + i sqrt(1 - epsilon^2)).
-  static double growth(double z, double epsilon) {
-    const std::complex<double> s = z * std::complex<double>(epsilon, std::sqrt(1.0 - epsilon * epsilon));
-    return std::abs(1.0 + s * (1.0 + s / 2.0 * (1.0 + s / 3.0 * (1.0 + s / 4.0)))) - 1.0;
-  }
-  double certified() const {
-    return certified_step({structure, linearisation, structure.rest_position, Method::rk4}).step;
-  }
-  Structure structure = grid({.width = 2, .height = 2, .structural = 0.0, .shear = 0.0, .bend = 0.0});
-  Linearisation linearisation{structure};
-};
-
-// RK4 turns a motion that grows by epsilon z a step into one that grows by about epsilon z - z^6 / 144: most at z^5 =
-// 24 epsilon, and not at all at larger steps. Such a motion beside a faster one, whose limit of z = 2 sqrt 2 is all
-// that a look at large steps finds: it grows at half or at three quarters of that limit, and slowly enough for a short
-// trial to miss it.
-TEST(Certificate, LooksForGrowthAtHalfAndAtThreeQuartersOfTheStep) {
-  const double tolerance = CertificateOptions{}.growth_tolerance();  // e in half of the 500 steps of a trial of RK4
-  for (const auto& [share, most] : {std::pair{0.5, 2.2 * tolerance}, {0.75, 1.15 * tolerance}}) {
-    SCOPED_TRACE(share);
-    const double peak = std::pow(24.0 * 1.2 * most, 1.0 / 6.0), epsilon = 1.2 * most / peak;
-    const double limit = 2.0 * std::numbers::sqrt2, omega = peak / (share * limit);
-    for (const double part : {0.5, 0.75, 1.0})
-      EXPECT_EQ(Oscillators::growth(part * limit * omega, epsilon) > tolerance, part == share) << part;
-    const double step = Oscillators({{1.0, 0.0}, {omega, epsilon}}).certified();
-    EXPECT_GT(step, 0.0);
-    EXPECT_LT(step, 0.7 * limit);
-    for (const double part : {0.5, 0.75, 1.0})
-      EXPECT_LT(Oscillators::growth(part * step * omega, epsilon), 1.05 * tolerance) << part;
-    EXPECT_NEAR(Oscillators({{1.0, 0.0}}).certified(), limit, 0.002 * limit) << "without it";
-  }
-}
-
-// The same in a filter's doing: on uneven springs with an uneven lambda, F M^-1 K has complex eigenvalues, and its mode
+// RK4 turns a motion that grows by epsilon z a step, z = omega h, into one that grows by about epsilon z - z^6 / 144:
+// not at all at large steps. On uneven springs with an uneven lambda, F M^-1 K has complex eigenvalues, and its mode
 // grows at half of the step that is stable by itself.
 TEST(Certificate, AgreesWithDenseEigenvaluesWhereRungeKuttaGrowsAtSmallerStepsOnly) {
   Structure structure = test::ring(6, 1.0, 1.0);
@@ -231,14 +194,43 @@ TEST(Certificate, AgreesWithDenseEigenvaluesWhereRungeKuttaGrowsAtSmallerStepsOn
   const auto growth = [&](double h) {
     return test::spectral_radius(test::step_matrix(structure, std::ref(step), h, 0.5 * unit)) - 1.0;
   };
-  const double tolerance = CertificateOptions{}.growth_tolerance();
-  EXPECT_LT(growth(2.38 * unit), tolerance);
-  EXPECT_GT(growth(1.19 * unit), 1.5 * tolerance);
-  const double certified_limit = certified(structure, linearisation, Method::rk4, &filter).step;
+  EXPECT_LT(growth(2.38 * unit), 1e-3 * unit);
+  constexpr double duration = 4000.0;
+  EXPECT_GT(growth(1.19 * unit), 2.0 * tolerated(1.19 * unit, false, duration));
+  const double certified_limit =
+      certified_step({structure, linearisation, structure.rest_position, Method::rk4, {}, &filter, duration}).step;
   for (const double share : {0.25, 0.5, 0.75, 1.0})
-    EXPECT_LT(growth(share * certified_limit), 1.2 * tolerance)
+    EXPECT_LT(growth(share * certified_limit), 1.2 * tolerated(share * certified_limit, false, duration))
         << share << " of " << certified_limit / unit << " units";
   EXPECT_GT(certified_limit, 0.3 * unit);
+}
+
+// What the filter is at its weakest within the run, not at its start.
+TEST(Certificate, CountsLambdaAtItsWeakestWithinTheDuration) {
+  const Structure structure = crooked_sheet({0, 3});
+  const Linearisation linearisation = linearise_at_rest(structure);
+  const auto limit = [&](const FilterOptions& options, double duration) {
+    const Filter filter(structure, options);
+    return certified_step({structure, linearisation, structure.rest_position, Method::fb_euler, {}, &filter, duration})
+        .step;
+  };
+  for (const FilterForm form : {FilterForm::conserving, FilterForm::symmetric}) {
+    const FilterOptions strong{.lambda = 1.0, .form = form, .target = FilterTarget::force};
+    FilterOptions weak = strong, keyed = strong;
+    weak.lambda = 6.0;
+    keyed.lambda_keys = {{0.0, 1.0}, {5.0, 1.0}, {6.0, 6.0}};
+    EXPECT_NEAR(limit(keyed, 10.0), limit(weak, 10.0), 5e-3 * limit(weak, 10.0));
+    EXPECT_NEAR(limit(keyed, 4.0), limit(strong, 10.0), 5e-3 * limit(strong, 10.0));
+  }
+}
+
+TEST(Certificate, TakesAFilterOfCurrentDistancesForNone) {
+  const Structure structure = crooked_sheet({0, 3});
+  const Filter filter(
+      structure,
+      {.form = FilterForm::conserving, .target = FilterTarget::force, .distances = FilterDistances::current});
+  EXPECT_EQ(certified_at_rest(structure, Method::fb_euler, &filter).step,
+            certified_at_rest(structure, Method::fb_euler, nullptr).step);
 }
 
 TEST(Certificate, IsUnlimitedForTheImplicitSchemes) {
@@ -264,7 +256,7 @@ TEST(Certificate, ScalesWithOneOverTheRootOfTheStiffness) {
       const std::optional<Filter> filter = c.filter ? std::make_optional<Filter>(structure, *c.filter) : std::nullopt;
       return certified_at_rest(structure, c.method, filter ? &*filter : nullptr).step;
     };
-    EXPECT_NEAR(limit(soft) / limit(stiff), 20.0, 0.02);
+    EXPECT_NEAR(limit(soft) / limit(stiff), 20.0, 0.1);  // what is tolerated is so much a second
   }
 }
 

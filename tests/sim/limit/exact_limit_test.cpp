@@ -90,7 +90,8 @@ TEST(ExactLimit, IsTightForFBEulerAndVerletWithAndWithoutAFilterAndDamping) {
     for (const double damping : {0.0, 0.3})
       for (const Method method : {Method::fb_euler, Method::verlet})
         for (const std::optional<FilterTarget> target :
-             {std::optional<FilterTarget>{}, std::optional(FilterTarget::force), std::optional(FilterTarget::velocity)}) {
+             {std::optional<FilterTarget>{}, std::optional(FilterTarget::force),
+              std::optional(FilterTarget::velocity)}) {
           SCOPED_TRACE(testing::Message() << name(method) << ", " << pinned.size() << " pins, damping " << damping
                                           << ", target " << (target ? static_cast<int>(*target) : -1));
           expect_tight({unevenly_damped(crooked_sheet(pinned), damping, 0.2 * damping), method, target});
@@ -110,7 +111,8 @@ TEST(ExactLimit, IsTwoRootTwoForRungeKuttaWithoutDamping) {
 // With damping it is on the safe side: no mode need have the largest stiffness and the largest damping at once.
 TEST(ExactLimit, HoldsForRungeKuttaWithDamping) {
   for (const double damping : {0.02, 0.3, 3.0})
-    for (const std::optional<FilterTarget> target : {std::optional<FilterTarget>{}, std::optional(FilterTarget::force)}) {
+    for (const std::optional<FilterTarget> target :
+         {std::optional<FilterTarget>{}, std::optional(FilterTarget::force)}) {
       const Subject subject(unevenly_damped(crooked_sheet(held), damping, 0.1), Method::rk4, target);
       const auto found = exact_limit(subject.step());
       ASSERT_TRUE(found && !found->unlimited);
@@ -138,7 +140,7 @@ TEST(ExactLimit, HoldsForForwardEulerWithADampingOfEveryKind) {
   for (const DampingModel model : {DampingModel::projected, DampingModel::spring})
     for (const double friction : {0.5, 20.0})
       for (const std::optional<FilterTarget> target :
-           {std::optional<FilterTarget>{}, std::optional(FilterTarget::force), std::optional(FilterTarget::velocity)}) {
+           {std::optional<FilterTarget>{}, std::optional(FilterTarget::force)}) {
         Structure structure = unevenly_damped(crooked_sheet(held), 0.2, friction);
         structure.body[0].damping_model = model;
         const Subject subject(std::move(structure), Method::forward_euler, target);
@@ -161,19 +163,19 @@ TEST(ExactLimit, OfForwardEulerGoesByTheLeastDampingAtAnyShape) {
   structure.damping.setConstant(0.5);
   const Forces forces(structure, Eigen::Vector3d::Zero());
   const Linearisation any = forces.bound(Shapes::any).linearisation;
-  StiffnessMatrix least = forces.least_damping();
+  const StiffnessMatrix least = forces.least_damping();
   LinearisedStep step{structure, any, structure.rest_position, Method::forward_euler};
   step.least_damping = &least;
   EXPECT_EQ(exact_limit(step)->step, 0.0);
   structure.body[0].friction = 2.0;
   const Linearisation with_friction = forces.bound(Shapes::any).linearisation;
-  least = forces.least_damping();
-  const LinearisedStep again{structure, with_friction, structure.rest_position, Method::forward_euler,
-                             {},        nullptr,       10.0,                    &least};
+  const StiffnessMatrix least_with_friction = forces.least_damping();
+  const LinearisedStep again{structure, with_friction, structure.rest_position, Method::forward_euler, {}, nullptr,
+                             10.0,      &least_with_friction};
   EXPECT_GT(exact_limit(again)->step, 0.0);
-  EXPECT_LT(exact_limit(again)->step, exact_limit(LinearisedStep{structure, with_friction, structure.rest_position,
-                                                                 Method::forward_euler})
-                                          ->step);
+  EXPECT_LT(
+      exact_limit(again)->step,
+      exact_limit(LinearisedStep{structure, with_friction, structure.rest_position, Method::forward_euler})->step);
 }
 
 TEST(ExactLimit, IsNoneForTheImplicitSchemesWithoutAFilter) {
@@ -198,8 +200,8 @@ TEST(ExactLimit, LeavesWhatHasNoClosedFormToTrials) {
     subject.filter.emplace(subject.structure, FilterOptions{.form = form});
     EXPECT_FALSE(exact_limit(subject.step()));
   }
-  EXPECT_FALSE(exact_limit(Subject(crooked_sheet(held), Method::rk4, FilterTarget::velocity).step()));
-  EXPECT_FALSE(exact_limit(Subject(crooked_sheet(held), Method::backward_euler, FilterTarget::velocity).step()));
+  for (const Method method : {Method::forward_euler, Method::rk4, Method::backward_euler})
+    EXPECT_FALSE(exact_limit(Subject(crooked_sheet(held), method, FilterTarget::velocity).step())) << name(method);
 }
 
 // On a ring of equal masses plain weights are self-adjoint, so they need no trial.
@@ -207,8 +209,8 @@ TEST(ExactLimit, TakesAnyFormThatIsSelfAdjoint) {
   const test::RingOfModes ring;
   for (const FilterForm form : {FilterForm::plain, FilterForm::symmetric}) {
     const Filter filter(ring.structure, {.lambda = 2.0, .form = form});
-    const auto found = exact_limit(
-        {ring.structure, ring.linearisation, ring.structure.rest_position, Method::fb_euler, {}, &filter});
+    const auto found =
+        exact_limit({ring.structure, ring.linearisation, ring.structure.rest_position, Method::fb_euler, {}, &filter});
     ASSERT_TRUE(found);
     EXPECT_GT(found->step, 2.0 / ring.omega(test::RingOfModes::n / 2));
   }
@@ -220,7 +222,7 @@ TEST(MeanFilterLimit, BoundsForceFiltersAtEveryShape) {
   const Forces forces(structure, Eigen::Vector3d::Zero());
   const Linearisation any = forces.bound(Shapes::any).linearisation;
   for (const FilterForm form : {FilterForm::plain, FilterForm::symmetric}) {
-    const Filter filter(structure, {.lambda = 2.0, .form = form, .target = FilterTarget::force});
+    const Filter filter(structure, {.lambda = 4.0, .form = form, .target = FilterTarget::force});
     const LinearisedStep step{structure, any, structure.rest_position, Method::fb_euler, {}, &filter};
     const auto bound = limit_of_mean_filter(step);
     ASSERT_TRUE(bound);

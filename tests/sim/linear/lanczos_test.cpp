@@ -115,7 +115,8 @@ TEST(Lanczos, SaysWhenItDidNotConverge) {
 TEST(Arnoldi, AgreesWithADenseSolverOnAMatrixThatIsNotSymmetric) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const int n = 30;
-    const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(3 * n, 3 * n) + 4.0 * Eigen::MatrixXd::Identity(3 * n, 3 * n);
+    const Eigen::MatrixXd matrix =
+        Eigen::MatrixXd::Random(3 * n, 3 * n) + 4.0 * Eigen::MatrixXd::Identity(3 * n, 3 * n);
     const auto multiply = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
       const Eigen::VectorXd product = matrix * x.reshaped();
       y = product.reshaped(n, 3);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "sim/body/momenta.h"
 #include "tests/support/structures.h"
+#include "tests/support/swimmers.h"
 
 namespace billow::sim {
 namespace {
@@ -49,6 +50,7 @@ struct Outcome {
   std::vector<Incident> incidents;
   std::vector<double> energy;
   long steps = 0;
+  int halvings_at_the_end = 0;
   std::string divergence;
 
   double climb() const {
@@ -60,32 +62,32 @@ struct Outcome {
 
 Outcome run(const Scene& scene) {
   const Forces forces(scene.structure, scene.gravity);
-  WatchedRun watched(scene.structure, forces,
-                     std::make_unique<Solver>(scene.structure, forces,
-                                              SolverOptions{.method = scene.method,
-                                                            .step = scene.step,
-                                                            .limit = 0.005,
-                                                            .max_strain = torn_strain},
-                                              scene.start()),
-                     {.changes_step = scene.changes_step, .energy_scale = scene.scale()},
-                     every(scene.interval, scene.end));
+  WatchedRun watched(
+      scene.structure, forces,
+      std::make_unique<Solver>(
+          scene.structure, forces,
+          SolverOptions{.method = scene.method, .step = scene.step, .limit = 0.005, .max_strain = torn_strain},
+          scene.start()),
+      {.changes_step = scene.changes_step, .energy_scale = scene.scale(), .stretch = 16},
+      every(scene.interval, scene.end));
   Outcome outcome;
   try {
     while (auto sample = watched.next()) {
-      outcome.energy.push_back(kinetic_energy(scene.structure, sample->state) +
-                               forces.potential_energy(sample->state));
+      outcome.energy.push_back(kinetic_energy(scene.structure, sample->state) + forces.potential_energy(sample->state));
       outcome.samples.push_back(std::move(*sample));
     }
   } catch (const DivergenceError& error) {
     outcome.divergence = error.what();
   }
   outcome.incidents = watched.incidents();
-  outcome.steps = watched.solver().steps();
+  outcome.steps = watched.steps();
+  outcome.halvings_at_the_end = watched.solver().halvings();
   return outcome;
 }
 
 TEST(WatchedRun, IsTheSolverWhereAllIsWell) {
-  const Scene scene;
+  Scene scene;
+  scene.step = 0.002;
   const Outcome watched = run(scene);
   const Forces forces(scene.structure, scene.gravity);
   Solver solver(scene.structure, forces, {.step = scene.step}, scene.start());
@@ -111,7 +113,7 @@ TEST(WatchedRun, TakesSmallerStepsWhereAThrownClothGainsEnergy) {
   EXPECT_EQ(outcome.divergence, "");
   EXPECT_EQ(outcome.samples.size(), 100U);
   ASSERT_FALSE(outcome.incidents.empty());
-  EXPECT_LT(outcome.climb(), 0.03 * thrown().scale());
+  EXPECT_LT(outcome.climb(), 0.06 * thrown().scale());
   const Incident& first = outcome.incidents.front();
   EXPECT_GE(first.halvings, 1);
   EXPECT_GT(first.discarded, 0);
@@ -133,7 +135,7 @@ TEST(WatchedRun, TakesTheSameStepsWhateverIsSampled) {
   const Outcome a = run(often), b = run(seldom);
   ASSERT_EQ(a.incidents.size(), b.incidents.size());
   for (std::size_t k = 0; k < b.samples.size(); ++k)
-    ASSERT_EQ(a.samples[5 * k].state.position, b.samples[k].state.position) << k;
+    ASSERT_TRUE(a.samples[5 * k].state.position == b.samples[k].state.position) << k;
 }
 
 TEST(WatchedRun, MendsAStepFarBeyondTheLimit) {
@@ -172,6 +174,46 @@ TEST(WatchedRun, SaysThatWeightTearsAClothWhateverTheStep) {
   fast.gravity.setZero();
   fast.velocity = {400.0, 0.0, 0.0};
   EXPECT_THAT(run(fast).divergence, HasSubstr("too soft for the speed that the body starts with"));
+}
+
+TEST(WatchedRun, TakesWholeStepsAgainWhenAllIsCalm) {
+  Scene scene = thrown();
+  scene.structure.body[0].friction = 0.004;  // what was thrown comes to rest
+  scene.end = 20.0;
+  const Outcome outcome = run(scene);
+  ASSERT_FALSE(outcome.incidents.empty());
+  EXPECT_EQ(outcome.halvings_at_the_end, 0);
+  EXPECT_LT(outcome.incidents.back().end, 19.0);
+}
+
+// A fish swims by what its muscles put in: counted, that is no climb, and the watch leaves it alone however little the
+// run turns over.
+TEST(WatchedRun, CountsTheWorkOfMuscles) {
+  const test::Swimmer swimmer(test::swimming());
+  const double turned_over = 2.0;  // [J]
+  WatchedRun watched(swimmer.structure, *swimmer.forces,
+                     std::make_unique<Solver>(swimmer.structure, *swimmer.forces, SolverOptions{.step = 0.002},
+                                              rest_state(swimmer.structure)),
+                     {.energy_scale = turned_over}, every(0.04, 4.0));
+  double most = 0.0;
+  while (const auto sample = watched.next())
+    most = std::max(most,
+                    kinetic_energy(swimmer.structure, sample->state) + swimmer.forces->potential_energy(sample->state));
+  EXPECT_GT(most, 0.1 * turned_over);
+  EXPECT_TRUE(watched.incidents().empty());
+  EXPECT_GT(watched.solver().work(), most);
+}
+
+TEST(Solver, TakesWorkBackWithItsSteps) {
+  const test::Swimmer swimmer(test::swimming());
+  Solver solver(swimmer.structure, *swimmer.forces, {.step = 0.002}, rest_state(swimmer.structure));
+  solver.sample(1.0);
+  const Solver::Checkpoint good = solver.checkpoint();
+  const double before = solver.work();
+  solver.sample(1.5);
+  EXPECT_NE(solver.work(), before);
+  solver.go_back(good);
+  EXPECT_EQ(solver.work(), before);
 }
 
 // Half a period in hand: steps of halves, quarters and eighths end where whole ones do.
