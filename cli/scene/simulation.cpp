@@ -141,6 +141,8 @@ StepChoice Simulation::find_limits() const {
   choice.paper = sim::paper_step(solver.method, choice.filtered ? choice.filtered->value : choice.k0.value);
   choice.take(rest, choice.certified);
   choice.take(any, choice.any_shape);
+  choice.only_at_rest =
+      solver.method == sim::Method::forward_euler && choice.any_shape == 0.0 && choice.certified != 0.0;
   choice.limit = choice.any_shape_binds() ? choice.any_shape : choice.certified;
   return choice;
 }

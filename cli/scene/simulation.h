@@ -29,15 +29,14 @@ struct StepChoice {
   std::optional<double> any_shape;                  // [s] of the stiffest that any shape can be
   std::vector<std::string> unbounded;               // laws that no limit counts
   std::optional<sim::StepSetter> setter;            // the place that makes the step much smaller than it is elsewhere
+  bool only_at_rest = false;                        // forward Euler's, where nothing damps every motion at any shape
   bool always_grows = false;                        // slowly, at every step alike: the filter's doing
   sim::EigenvalueEstimate k0;                       // [1/s^2]
   std::optional<sim::EigenvalueEstimate> filtered;  // Algorithm 1's alpha [1/s^2] where the scene filters
 
   /// `found` into one of the limits.
   void take(const sim::CertifiedStep& found, std::optional<double>& limit);
-  /// Whether a step is certified, but for the rest shape only.
-  bool only_at_rest() const { return any_shape == 0.0 && certified != 0.0; }
-  bool any_shape_binds() const { return any_shape && !only_at_rest() && (!certified || *any_shape < *certified); }
+  bool any_shape_binds() const { return any_shape && !only_at_rest && (!certified || *any_shape < *certified); }
 };
 
 /// Everything that a run needs besides time. Immovable: the forces refer to the structure.

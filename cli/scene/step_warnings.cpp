@@ -12,7 +12,7 @@ std::vector<std::string> step_warnings(const sim::Structure& structure, const St
                                    choice.step, *choice.limit));
   for (const std::string& law : choice.unbounded)
     warnings.push_back(fmt::format("the step limit does not count {}, which has no bound; the run may diverge", law));
-  if (choice.only_at_rest())
+  if (choice.only_at_rest)
     warnings.emplace_back(
         "the step is certified at rest only: damping along springs leaves motion across stretched ones undamped, which "
         "this method makes grow; friction or another method would hold it");

@@ -15,6 +15,9 @@ namespace {
 // Trials that only bracket the limit let so many times as fast growth pass: they are short.
 constexpr double bracketing = 4.0;
 
+// Implicit schemes seldom have a limit, and trials of them are dear.
+constexpr double implicit_tolerance = 0.03;
+
 // Steps in units of 2/sqrt(k0): where the search begins, and where it gives up.
 constexpr double first_explicit = 0.4, first_implicit = 0.5, smallest = 0.01, largest = 40.0;
 
@@ -26,7 +29,7 @@ class Search {
       : trial_(trial),
         explicit_(is_explicit(step.method)),
         evaluations_(scheme(step.method).evaluations),
-        tolerance_(options.step_tolerance),
+        tolerance_(explicit_ ? options.step_tolerance : std::max(options.step_tolerance, implicit_tolerance)),
         unit_(2.0 / trial.omega()),
         most_growth_(options.tolerated_growth / step.duration) {}
 

@@ -318,7 +318,6 @@ double Limits::before_overshoot(double most) {
   return low;
 }
 
-
 bool lets_all_pass_upright(const LinearisedStep& step, const Filter& adjoint) {
   MeanFilter mean(step, &adjoint);
   const auto negative = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { mean.apply(x, -1.0, y); };

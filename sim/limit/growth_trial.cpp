@@ -22,10 +22,10 @@ IntegratorOptions nearly_exact(IntegratorOptions options) {
 // even where it begins as a small part of the whole.
 constexpr double growth_seen = 4.0;
 
-// Particles times evaluations times steps of the longest trial: about a tenth of a second. Implicit steps take some
+// Particles times evaluations times steps of the longest trial: about a twentieth of a second. Implicit steps take some
 // fifty products each.
-constexpr double longest_work = 3e6, implicit_evaluations = 50.0;
-constexpr double fewest_explicit = 150.0, fewest_implicit = 40.0, most_steps = 20000.0;
+constexpr double longest_work = 1.5e6, implicit_evaluations = 50.0;
+constexpr double fewest_explicit = 150.0, fewest_implicit = 40.0, most_steps = 6000.0;
 
 int trial_steps(const LinearisedStep& step, double h, double most_growth) {
   const double evaluations = is_explicit(step.method) ? scheme(step.method).evaluations : implicit_evaluations;

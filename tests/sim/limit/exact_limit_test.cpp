@@ -71,7 +71,7 @@ struct Subject {
 constexpr double rounding = 2e-7;
 
 void expect_stable_up_to(const Subject& subject, double limit) {
-  for (const double share : {0.1, 0.5, 0.9, 1.0})
+  for (const double share : {0.4, 1.0})
     EXPECT_LE(subject.radius(share * limit), 1.0 + rounding) << share << " of " << limit;
 }
 
@@ -110,7 +110,7 @@ TEST(ExactLimit, IsTwoRootTwoForRungeKuttaWithoutDamping) {
 
 // With damping it is on the safe side: no mode need have the largest stiffness and the largest damping at once.
 TEST(ExactLimit, HoldsForRungeKuttaWithDamping) {
-  for (const double damping : {0.02, 0.3, 3.0})
+  for (const double damping : {0.02, 3.0})
     for (const std::optional<FilterTarget> target :
          {std::optional<FilterTarget>{}, std::optional(FilterTarget::force)}) {
       const Subject subject(unevenly_damped(crooked_sheet(held), damping, 0.1), Method::rk4, target);
