@@ -36,13 +36,7 @@ class Search {
   /// From `guess` [s], which may be 0 for none, down to what holds; or up and down.
   CertifiedStep run(double guess) {
     CertifiedStep found = guess > 0.0 ? around(guess) : find();
-    if (found.step > 0.0 || found.unlimited) return found;
-    const double small = first_explicit * unit_ / 8.0, rate = growth(small);
-    // At half the step damping and turned forces grow half as fast or slower; a motion that itself grows does not.
-    if (!(growth(0.5 * small) > 0.7 * rate)) return found;
-    most_growth_ = 2.0 * rate;
-    found = guess > 0.0 ? around(guess) : find();
-    found.always_grows = true;
+    found.always_grows = always_grows_;
     return found;
   }
 
@@ -66,6 +60,17 @@ class Search {
   bool stable(double h, double growth) { return ++trials_, trial_.stable(h, growth); }
   bool brackets(double h) { return stable(h, bracketing * most_growth_); }
   double growth(double h) { return stable(h, most_growth_), trial_.growth(); }
+
+  // Damping, turned forces and the schemes themselves grow half as fast or slower at half the step. What grows as fast
+  // is the motion itself, the filter's doing: a step has to hold but for that.
+  bool tolerate_what_no_step_mends(double h) {
+    const double whole = growth(h);
+    if (always_grows_ || !trial_.resolved() || !(whole > most_growth_)) return false;
+    const double half = growth(0.5 * h);
+    if (!trial_.resolved() || !(half > 0.7 * whole)) return false;
+    most_growth_ = 2.0 * std::max(whole, half);
+    return always_grows_ = true;
+  }
 
   // RK4 damps at large steps what grows slowly at small ones.
   bool holds(double h) {
@@ -116,6 +121,7 @@ class Search {
 
   // Back to a step that holds, in growing strides, and from there by full trials.
   CertifiedStep retreat() {
+    if (tolerate_what_no_step_mends(0.5 * low_) && holds(low_)) return at(low_);
     double stride = 0.97;
     do {
       high_ = low_;
@@ -133,6 +139,7 @@ class Search {
   int evaluations_;
   double tolerance_, unit_, most_growth_;  // -, [s], [1/s]
   double low_ = 0.0, high_ = 0.0;          // [s] stable and unstable
+  bool always_grows_ = false;
   int trials_ = 0;
 };
 

@@ -84,12 +84,13 @@ std::optional<StepSetter> find_step_setter(const Structure& structure, const Sti
 std::string text_of(const Structure& structure, const StepSetter& setter) {
   const Body& body = body_of(structure, setter.particle);
   return fmt::format(
-      "edge {}-{} of '{}', {:.3g} mm long, sets the step: without its neighbourhood it would be {:.2g} times longer "
-      "(particle {} has {:.2g} g, the median is {:.2g} g); merge such vertices in the mesh, use 'mass_distribution: "
+      "edge {}-{} of '{}', {:.3g} mm long, sets the step: without its neighbourhood it would be {} times longer "
+      "(particle {} has {:.3g} g, the median is {:.3g} g); merge such vertices in the mesh, use 'mass_distribution: "
       "uniform' or a filter",
       std::min(setter.particle, setter.neighbour) - body.first_particle,
-      std::max(setter.particle, setter.neighbour) - body.first_particle, body.name, 1e3 * setter.length, setter.ratio,
-      setter.particle - body.first_particle, 1e3 * setter.mass, 1e3 * setter.median_mass);
+      std::max(setter.particle, setter.neighbour) - body.first_particle, body.name, 1e3 * setter.length,
+      fmt::format("{:.{}f}", setter.ratio, setter.ratio < 10.0 ? 1 : 0), setter.particle - body.first_particle,
+      1e3 * setter.mass, 1e3 * setter.median_mass);
 }
 
 }  // namespace billow::sim

@@ -160,8 +160,7 @@ TEST(WatchedScene, NamesThePlaceThatSetsTheStep) {
   mesh.uv.push_back(mesh.uv.back());
   test::TemporaryFolder folder;
   folder.write("sheet.obj", test::mesh_file("obj", mesh));
-  folder.write("scene.yaml",
-               "billow: 1\nbodies:\n  - name: drape\n    cloth: {mesh: sheet.obj}\n");
+  folder.write("scene.yaml", "billow: 1\nbodies:\n  - name: drape\n    cloth: {mesh: sheet.obj}\n");
   const test::ToolResult result = test::run_tool({"check", "scene.yaml"}, folder.path());
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_THAT(result.errors, testing::ContainsRegex("edge [0-9]+-[0-9]+ of 'drape', [0-9.]+ mm long, sets the step: "

@@ -123,7 +123,7 @@ std::vector<Case> explicit_cases() {
 
 // What a step of h may grow by: nothing but rounding by eigenvalues, and what comes to e^6 in ten seconds by trials.
 double tolerated(double h, bool exact, double duration = 10.0) {
-  return 1e-6 + (exact ? 0.2 : 2.0 * CertificateOptions{}.tolerated_growth) / duration * h;
+  return 1e-6 + (exact ? 0.2 : 4.0 * CertificateOptions{}.tolerated_growth) / duration * h;
 }
 
 // The certificate against eigenvalues of the step's matrix: stable up to it, unstable just beyond.
@@ -196,7 +196,7 @@ TEST(Certificate, AgreesWithDenseEigenvaluesWhereRungeKuttaGrowsAtSmallerStepsOn
   };
   EXPECT_LT(growth(2.38 * unit), 1e-3 * unit);
   constexpr double duration = 4000.0;
-  EXPECT_GT(growth(1.19 * unit), 2.0 * tolerated(1.19 * unit, false, duration));
+  EXPECT_GT(growth(1.19 * unit), 1.2 * tolerated(1.19 * unit, false, duration));
   // Smaller steps grow too, alike a second: it is the filter that does it, which is said.
   const CertifiedStep found =
       certified_step({structure, linearisation, structure.rest_position, Method::rk4, {}, &filter, duration});

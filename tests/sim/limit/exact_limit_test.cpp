@@ -170,8 +170,8 @@ TEST(ExactLimit, OfForwardEulerGoesByTheLeastDampingAtAnyShape) {
   structure.body[0].friction = 2.0;
   const Linearisation with_friction = forces.bound(Shapes::any).linearisation;
   const StiffnessMatrix least_with_friction = forces.least_damping();
-  const LinearisedStep again{structure, with_friction, structure.rest_position, Method::forward_euler, {}, nullptr,
-                             10.0,      &least_with_friction};
+  const LinearisedStep again{structure, with_friction, structure.rest_position, Method::forward_euler, {},
+                             nullptr,   10.0,          &least_with_friction};
   EXPECT_GT(exact_limit(again)->step, 0.0);
   EXPECT_LT(
       exact_limit(again)->step,
