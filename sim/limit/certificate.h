@@ -10,7 +10,7 @@ namespace billow::sim {
 
 struct CertificateOptions {
   double tolerated_growth = 6.0;  // the logarithm of what a motion may grow by within the duration and count as stable
-  double step_tolerance = 5e-4;  // relative width of the final bisection interval
+  double step_tolerance = 5e-4;   // relative width of the final bisection interval
   std::uint64_t seed = 1;
 };
 

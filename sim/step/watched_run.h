@@ -59,8 +59,8 @@ class WatchedRun {
 
   const std::vector<Incident>& incidents() const { return incidents_; }
   const Solver& solver() const { return *solver_; }
-  /// Steps that the states wanted so far took, those thrown away and those beyond the last left out, and the time [s] of
-  /// the last of them.
+  /// Steps that the states wanted so far took, those thrown away and those beyond the last left out, and the time [s]
+  /// of the last of them.
   long steps() const { return steps_; }
   double time() const { return time_; }
 
@@ -98,7 +98,7 @@ class WatchedRun {
   int calm_ = 0, calm_needed_ = 2;  // stretches without trouble at a halved step, and how many it takes
   long steps_ = 0;
   double time_ = 0.0;
-  bool incident_open_ = false;      // the last one: steps are still halved
+  bool incident_open_ = false;  // the last one: steps are still halved
   std::deque<Sample> ready_;
   std::optional<std::string> divergence_;
   std::vector<Incident> incidents_;
