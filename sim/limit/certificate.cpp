@@ -157,12 +157,19 @@ double first_guess(const LinearisedStep& step) {
   return mean ? mean->step : 0.0;
 }
 
+// Whether stiffness over mass, summed over a particle's springs, stays a number.
+bool is_finite(const Structure& structure) {
+  if (!structure.inverse_mass.allFinite()) return false;
+  const double stiffest = structure.springs() > 0 ? structure.stiffness.maxCoeff() : 0.0;
+  return std::isfinite(4.0 * structure.springs() * stiffest * structure.inverse_mass.maxCoeff());
+}
+
 CertifiedStep certified_with_constant_filter(const LinearisedStep& step, const CertificateOptions& options) {
+  if (!is_finite(step.structure))
+    throw InputError("stiffness over mass is beyond what a step can be found for; check masses and stiffnesses");
   if (const auto exact = exact_limit(step)) return *exact;
   GrowthTrial trial(step, options.seed);
   if (trial.omega() == 0.0) return {.unlimited = true};
-  if (!std::isfinite(trial.omega()))
-    throw InputError("stiffness over mass is beyond what a step can be found for; check masses and stiffnesses");
   Search search(trial, step, options);
   if (!turns_motions_around(step)) return search.run(first_guess(step));
   return step.filter->options().target == FilterTarget::force ? CertifiedStep{} : search.down_to_slow_growth();

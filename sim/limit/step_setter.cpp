@@ -65,6 +65,7 @@ std::optional<StepSetter> find_step_setter(const Structure& structure, const Sti
   if (!(most > least_ratio * least_ratio * median_of_positive(local))) return std::nullopt;
   Eigen::MatrixX3d mode;
   const double k0 = max_eigenvalue(structure, stiffness, rough, &mode).value;
+  if (!std::isfinite(k0) || !mode.allFinite()) return std::nullopt;
   StepSetter setter;
   mode.rowwise().squaredNorm().maxCoeff(&setter.particle);
   const std::vector<int> springs = springs_of(structure, setter.particle);
