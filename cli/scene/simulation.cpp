@@ -124,7 +124,8 @@ StepChoice Simulation::find_limits() const {
   choice.unbounded = at_rest.unbounded;
   sim::CertifiedStep rest, any{.unlimited = true};
   const auto find_eigenvalues = [&] {
-    choice.k0 = sim::max_eigenvalue(structure_, at_rest.linearisation.stiffness);
+    constexpr double reported = 1e-5;  // of the error's bound; the error itself is about its square
+    choice.k0 = sim::max_eigenvalue(structure_, at_rest.linearisation.stiffness, {.tolerance = reported});
     if (operator_) choice.filtered = sim::filtered_eigenvalue(structure_, at_rest.linearisation.stiffness, *operator_);
   };
   const auto find_any = [&] {
