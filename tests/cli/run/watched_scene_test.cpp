@@ -19,8 +19,8 @@ struct Scene {
   int side = 8;
   double duration = 3.0;
   std::string gravity = "[0, -9.81, 0]";
-  std::string cloth;  // more keys of it, on one line
-  std::string solver;
+  std::string cloth = {};  // more keys of it, on one line
+  std::string solver = {};
 
   std::string text() const {
     return fmt::format(
