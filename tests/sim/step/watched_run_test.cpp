@@ -268,6 +268,7 @@ TEST(WatchedRun, GoesOnWhereNoStepChangesTheClimb) {
   EXPECT_EQ(samples, 50);
   ASSERT_FALSE(watched.incidents().empty());
   for (const Incident& incident : watched.incidents()) EXPECT_EQ(incident.kind, Incident::Kind::unexplained);
+  EXPECT_EQ(watched.incidents().front().halvings, 1) << "one smaller step is enough to tell";
 }
 
 }  // namespace
