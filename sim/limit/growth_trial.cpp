@@ -22,8 +22,7 @@ IntegratorOptions nearly_exact(IntegratorOptions options) {
 // even where it begins as a small part of the whole.
 constexpr double growth_seen = 4.0;
 
-// Particles times evaluations times steps of the longest trial: about a twentieth of a second. Implicit steps take some
-// fifty products each.
+// Particles times evaluations times steps of the longest trial. Implicit steps are taken for fifty products each.
 constexpr double longest_work = 1.5e6, implicit_evaluations = 50.0;
 constexpr double fewest_explicit = 150.0, fewest_implicit = 40.0, most_steps = 6000.0;
 
