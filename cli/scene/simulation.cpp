@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/scene/particle_expression.h"
+#include "cli/scene/scene_parts.h"
 #include "sim/filter/filter.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
@@ -101,14 +102,16 @@ std::unique_ptr<sim::WatchedRun> Simulation::make_run(const StepChoice& choice,
 sim::CertifiedStep Simulation::certified_limit(const sim::Linearisation& linearisation,
                                                const sim::StiffnessMatrix* least_damping) const {
   const SolverSpec& solver = scene_.solver;
-  return sim::certified_step({.structure = structure_,
-                              .linearisation = linearisation,
-                              .position = structure_.rest_position,
-                              .method = solver.method,
-                              .options = solver.integrator,
-                              .filter = operator_ ? &*operator_ : nullptr,
-                              .duration = scene_.duration,
-                              .least_damping = least_damping});
+  return located(scene_.file.string(), [&] {
+    return sim::certified_step({.structure = structure_,
+                                .linearisation = linearisation,
+                                .position = structure_.rest_position,
+                                .method = solver.method,
+                                .options = solver.integrator,
+                                .filter = operator_ ? &*operator_ : nullptr,
+                                .duration = scene_.duration,
+                                .least_damping = least_damping});
+  });
 }
 
 void StepChoice::take(const sim::CertifiedStep& found, std::optional<double>& limit) {
