@@ -142,7 +142,8 @@ const Section filter{"filter",
                       {"neighbours", {}, all_words<sim::FilterNeighbours>()},
                       {"radius", above_0(100, "mean rest lengths")},
                       {"distances", {}, all_words<sim::FilterDistances>()},
-                      {"passes", between(1, 100)}}};
+                      {"passes", between(1, 100)},
+                      {"ratio", between(1, 1000)}}};
 
 const Section render{"render",
                      {{"size", between(16, 8192, "pixels")},

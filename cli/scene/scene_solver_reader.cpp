@@ -61,6 +61,7 @@ void read_filter(MapReader& parent, SolverSpec& solver) {
   filter.radius = map.number("radius", filter.radius);
   filter.distances = map.choice("distances", filter.distances);
   filter.passes = map.integer("passes", filter.passes);
+  filter.ratio = map.number("ratio", filter.ratio);
 }
 
 // auto, paper, or seconds.

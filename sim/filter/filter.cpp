@@ -1,219 +1,45 @@
-// Weights and application of the low-pass filter.
+// Passes, and rigid motions around them.
 #include "sim/filter/filter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "sim/linear/lanczos.h"
-#include "sim/pass/filter_pass.h"
+#include "sim/filter/level_filter.h"
+#include "sim/filter/neighbour_filter.h"
 
 namespace billow::sim {
 
-namespace {
-
-Eigen::VectorXd distance_unit(const Structure& structure) {
-  Eigen::VectorXd unit(structure.particles());
-  for (const Body& body : structure.body)
-    unit.segment(body.first_particle, body.particles).setConstant(body.mean_rest_length);
-  return unit;
-}
-
-void require(bool holds, const char* message) {
-  if (!holds) throw InputError(message);
-}
-
-void check(const Structure& structure, const FilterOptions& o) {
-  require(o.lambda > 0.0 && std::isfinite(o.lambda), "the filter's lambda must be a positive number");
-  require(o.passes >= 1, "the filter needs at least one pass");
-  require(o.radius > 0.0, "the filter's radius must be positive");
-  require(o.particle_lambda.size() == 0 || o.particle_lambda.size() == structure.particles(),
-          "the filter's particle_lambda needs one value per particle");
-  require((o.particle_lambda.array() > 0.0).all() && o.particle_lambda.allFinite(),
-          "lambda must be a positive number at every particle");
-  for (const auto& [time, factor] : o.lambda_keys)
-    require(factor > 0.0 && std::isfinite(factor), "lambda must be a positive number at every time");
-  for (std::size_t k = 1; k < o.lambda_keys.size(); ++k)
-    require(o.lambda_keys[k - 1].first < o.lambda_keys[k].first, "the filter's times for lambda must be ascending");
-}
-
-// beta(d) / beta(0): the common factor lambda cancels when the weights are normalised.
-double kernel(FilterKernel kind, double lambda, double distance) {
-  const double t = lambda * distance;
-  return kind == FilterKernel::exponential ? std::exp(-t) : std::exp(-0.5 * t * t);
-}
-
-}  // namespace
-
 Filter::Filter(const Structure& structure, FilterOptions options)
-    : structure_(structure), options_(std::move(options)), unit_(distance_unit(structure)) {
-  check(structure, options_);
-  neighbours_ = find_neighbours(structure, options_, unit_);
-  plan_ = FilterPlan(structure, neighbours_.rows);
-  strength_ = Eigen::VectorXd::Ones(structure.particles());
-  if (options_.form == FilterForm::conserving) {
-    restores_momenta_ = std::any_of(structure.body.begin(), structure.body.end(),
-                                    [&](const Body& body) { return is_free(structure, body); });
-    keep_spectrum_positive();
+    : structure_(structure), options_(std::move(options)) {
+  if (options_.kernel == FilterKernel::levels) {
+    auto levels = std::make_shared<LevelFilter>(structure, options_);
+    options_.level_shares = levels->shares();
+    operator_ = std::move(levels);
+  } else {
+    operator_ = std::make_shared<NeighbourFilter>(structure, options_);
   }
-  if (constant_weights()) set_rest_weights();
-}
-
-void Filter::set_rest_weights() {
-  FilterWeights weights;
-  compute_weights(nullptr, 0.0, weights);
-  rest_weights_ = arranged(weights);
-  plan_.share_equal_groups(rest_weights_);
-}
-
-bool Filter::constant_weights() const {
-  return options_.distances == FilterDistances::rest && options_.lambda_keys.empty();
-}
-
-void Filter::compute_weights(const Eigen::MatrixX3d* position, double time, FilterWeights& weights) const {
-  const auto& [first, column] = neighbours_.rows;
-  const double factor_now = lambda_factor(options_, time);
-  weights.self.resize(structure_.particles());
-  weights.neighbour.resize(neighbours_.distance.size());
-  for (int i = 0; i < structure_.particles(); ++i) {
-    const double lambda =
-        factor_now * (options_.particle_lambda.size() ? options_.particle_lambda(i) : options_.lambda);
-    double sum = 1.0;  // the particle itself, at distance 0
-    for (int e = first[i]; e < first[i + 1]; ++e) {
-      const double distance =
-          position ? (position->row(i) - position->row(column[e])).norm() / unit_(i) : neighbours_.distance(e);
-      sum += weights.neighbour(e) = kernel(options_.kernel, lambda, distance);
-    }
-    // symmetric: sum_j beta_j (v_j + v_i) / 2 = (I + B) / 2
-    const double half = options_.form == FilterForm::symmetric ? 0.5 : 1.0;
-    const double factor = structure_.pinned(i) ? 0.0 : half / sum;
-    double neighbours = 0.0;
-    for (int e = first[i]; e < first[i + 1]; ++e) neighbours += weights.neighbour(e) *= factor;
-    weights.self(i) = 1.0 - neighbours;
-  }
-  if (options_.form == FilterForm::conserving) symmetrise_with_masses(weights), soften(weights);
-}
-
-// F <- (1 - strength) I + strength F, body by body
-void Filter::soften(FilterWeights& weights) const {
-  const std::vector<int>& first = neighbours_.rows.first;
-  for (int i = 0; i < structure_.particles(); ++i) {
-    weights.neighbour.segment(first[i], first[i + 1] - first[i]) *= strength_(i);
-    weights.self(i) = (1.0 - strength_(i)) + strength_(i) * weights.self(i);
-  }
-}
-
-// The share of every body's exchange that leaves no eigenvalue of F below 0, where it filters most: F = I - E has the
-// smallest one 1 - (the largest of E).
-void Filter::keep_spectrum_positive() {
-  FilterWeights weights;
-  compute_weights(nullptr, times_of_extremes(options_, HUGE_VAL).back(), weights);
-  const Eigen::VectorXd largest = largest_exchange(arranged(weights));
-  for (std::size_t b = 0; b < structure_.body.size(); ++b)
-    strength_.segment(structure_.body[b].first_particle, structure_.body[b].particles)
-        .setConstant(1.0 / std::max(1.0, largest(b)));
-}
-
-// The largest eigenvalue of E = I - F of every body (b), from above.
-Eigen::VectorXd Filter::largest_exchange(const PlacedWeights& weights) const {
-  constexpr double tolerance = 1e-3;
-  FilterScratch scratch;
-  const auto exchange = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
-    y = x;
-    apply_once(weights, y, scratch);
-    y = x - y;
-  };
-  Eigen::VectorXd largest(structure_.body.size());
-  for (std::size_t b = 0; b < structure_.body.size(); ++b) {
-    const Body& body = structure_.body[b];
-    Eigen::VectorXd inner_mass = Eigen::VectorXd::Zero(structure_.particles());
-    for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
-      if (!structure_.pinned(i)) inner_mass(i) = structure_.mass(i);
-    largest(b) = largest_eigenvalue({exchange, {}, inner_mass}, {.tolerance = tolerance, .scale = 1.0}).upper();
-  }
-  return largest;
-}
-
-// Row i gives m_i b_ij of its momentum to j and takes m_j b_ji. With the smaller of the two both ways nothing is lost,
-// and no row's weights grow past 1.
-void Filter::symmetrise_with_masses(FilterWeights& weights) const {
-  const auto& [first, column] = neighbours_.rows;
-  FilterWeights result = weights;
-  for (int i = 0; i < structure_.particles(); ++i) {
-    if (structure_.pinned(i)) continue;
-    double neighbours = 0.0;
-    for (int e = first[i]; e < first[i + 1]; ++e) {
-      const int j = column[e];
-      const double forth = structure_.mass(i) * weights.neighbour(e), back = weights.neighbour(reverse_of(i, e));
-      const double exchange = structure_.pinned(j) ? forth : std::min(forth, structure_.mass(j) * back);
-      neighbours += result.neighbour(e) = exchange / structure_.mass(i);
-    }
-    result.self(i) = 1.0 - neighbours;
-  }
-  weights = std::move(result);
-}
-
-PlacedWeights Filter::arranged(const FilterWeights& weights) const {
-  PlacedWeights placed;
-  plan_.place(weights.self, weights.neighbour, placed);
-  return placed;
-}
-
-const PlacedWeights& Filter::weights_at(const Eigen::MatrixX3d& position, double time, FilterScratch& scratch) const {
-  if (constant_weights()) return rest_weights_;
-  const bool current = options_.distances == FilterDistances::current;
-  compute_weights(current ? &position : nullptr, time, scratch.weights);
-  plan_.place(scratch.weights.self, scratch.weights.neighbour, scratch.placed);
-  return scratch.placed;
-}
-
-namespace {
-
-FilterColumns columns_of(const Eigen::MatrixX3d& in, Eigen::MatrixX3d& out) {
-  FilterColumns columns{};
-  for (int axis = 0; axis < 3; ++axis) columns.in[axis] = in.col(axis).data(), columns.out[axis] = out.col(axis).data();
-  return columns;
-}
-
-}  // namespace
-
-void Filter::run(const PlacedWeights& weights, const FilterColumns& columns, PassScratch& scratch) const {
-  scratch.prepare();
-  for (const FilterBands& bands : plan_.bands)
-    for_each_range(bands.particles, band_group, least_part_of_a_pass, [&](int part, int begin, int end) {
-      filter_bands(bands, weights, columns, begin, end, scratch.part(part));
-    });
-  for (const FilterSlices& slices : plan_.slices) {
-    const auto filter_blocks = [&](int part, int begin, int end) {
-      for (int block = begin; block < end; ++block) filter_slices(slices, weights, columns, block, scratch.part(part));
-    };
-    for_each_range(static_cast<int>(slices.block.size()), 1, 1, filter_blocks, FilterSlices::block_particles);
-    if (!columns.base[0] && !columns.moved[0]) continue;
-    for_each_range(slices.particles, 1, least_part_of_a_pass, [&](int, int begin, int end) {
-      put_filtered(columns, slices.first_particle + begin, slices.first_particle + end);
-    });
-  }
+  restores_momenta_ =
+      operator_->nonnegative() && std::any_of(structure.body.begin(), structure.body.end(),
+                                              [&](const Body& body) { return is_free(structure, body); });
 }
 
 // Into a second field, which then changes places with the first.
-void Filter::apply_once(const PlacedWeights& weights, Eigen::MatrixX3d& field, FilterScratch& scratch) const {
+void Filter::apply_once(Eigen::MatrixX3d& field, FilterScratch& scratch) const {
   scratch.filtered.resize(field.rows(), 3);
-  run(weights, columns_of(field, scratch.filtered), scratch.pass);
+  operator_->run(columns_of(field, scratch.filtered), scratch);
   field.swap(scratch.filtered);
 }
 
 void Filter::apply(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field,
                    FilterScratch& scratch) const {
   take_rigid_motion(position, field, scratch);
-  const PlacedWeights& weights = weights_at(position, time, scratch);
-  for (int pass = 0; pass < options_.passes; ++pass) apply_once(weights, field, scratch);
+  operator_->prepare(position, time, scratch);
+  for (int pass = 0; pass < options_.passes; ++pass) apply_once(field, scratch);
   put_rigid_motion(position, field, scratch);
 }
 
-// With P the projection onto rigid motions, which is orthogonal in the masses' inner product, the conserving form of a
-// free body is (I - P) F (I - P) + P: rigid motions pass as they are, and it stays self-adjoint.
+// With P the projection onto rigid motions, which is orthogonal in the masses' inner product, a conserving
+// filter of a free body is (I - P) F (I - P) + P: rigid motions pass as they are, and it stays self-adjoint.
 void Filter::take_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field,
                                FilterScratch& scratch) const {
   scratch.before.clear();
@@ -234,10 +60,10 @@ void Filter::put_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d
 // The last pass writes where `columns` say.
 void Filter::apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns,
                         FilterScratch& scratch) const {
-  const PlacedWeights& weights = weights_at(position, time, scratch);
-  for (int pass = 1; pass < options_.passes; ++pass) apply_once(weights, field, scratch);
+  operator_->prepare(position, time, scratch);
+  for (int pass = 1; pass < options_.passes; ++pass) apply_once(field, scratch);
   for (int axis = 0; axis < 3; ++axis) columns.in[axis] = field.col(axis).data();
-  run(weights, columns, scratch.pass);
+  operator_->run(columns, scratch);
 }
 
 void Filter::apply_and_move(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, double h,
@@ -269,75 +95,18 @@ void Filter::apply_and_kick(const Eigen::MatrixX3d& position, double time, Eigen
   apply_last(position, time, field, columns, scratch);
 }
 
-// Both directions of every exchange of momentum, m_i b_ij and m_j b_ji, by neighbour entry; weights of pinned particles
-// count for nothing, as their velocities do.
-bool Filter::self_adjoint() const {
-  constexpr double rounding = 1e-9;
-  if (options_.form == FilterForm::conserving) return true;
-  FilterWeights weights;
-  compute_weights(nullptr, 0.0, weights);
-  const FilterWeights adjoint = adjoint_of(weights);
-  const auto& [first, column] = neighbours_.rows;
-  for (int i = 0; i < structure_.particles(); ++i)
-    for (int e = first[i]; e < first[i + 1]; ++e)
-      if (!structure_.pinned(i) && !structure_.pinned(column[e]) &&
-          std::abs(weights.neighbour(e) - adjoint.neighbour(e)) > rounding)
-        return false;
-  return true;
-}
-
-// What the conserving form is scaled down by stays, though it is found where lambda is smallest.
 Filter Filter::frozen(double time) const {
   Filter result = *this;
-  const double factor = lambda_factor(options_, time);
-  result.options_.lambda *= factor;
-  result.options_.particle_lambda *= factor;
-  result.options_.lambda_keys.clear();
-  result.options_.distances = FilterDistances::rest;
-  result.set_rest_weights();
+  result.options_ = frozen_options(options_, time);
+  result.operator_ = operator_->frozen(time);
   return result;
 }
 
 Filter Filter::adjoint() const {
   if (!constant_weights()) throw std::logic_error("only a filter with constant weights has one adjoint");
   Filter result = *this;
-  FilterWeights weights;
-  compute_weights(nullptr, 0.0, weights);
-  if (options_.form != FilterForm::conserving) weights = adjoint_of(weights);
-  result.rest_weights_ = arranged(weights);
+  result.operator_ = operator_->adjoint();
   return result;
-}
-
-// M^-1 F^T M: b*_ij = m_j b_ji / m_i. The diagonal stays.
-FilterWeights Filter::adjoint_of(const FilterWeights& weights) const {
-  const auto& [first, column] = neighbours_.rows;
-  FilterWeights result = weights;
-  for (int i = 0; i < structure_.particles(); ++i)
-    for (int e = first[i]; e < first[i + 1]; ++e)
-      result.neighbour(e) = structure_.mass(column[e]) / structure_.mass(i) * weights.neighbour(reverse_of(i, e));
-  return result;
-}
-
-// Of the entry e of row i, which is j: the entry of row j that is i.
-Eigen::Index Filter::reverse_of(int i, int e) const {
-  const auto& [first, column] = neighbours_.rows;
-  const int j = column[e];
-  return std::lower_bound(column.begin() + first[j], column.begin() + first[j + 1], i) - column.begin();
-}
-
-Eigen::SparseMatrix<double, Eigen::RowMajor> Filter::weights(const Eigen::MatrixX3d& position, double time) const {
-  const bool current = options_.distances == FilterDistances::current;
-  const auto& [first, column] = neighbours_.rows;
-  FilterWeights weights;
-  compute_weights(current ? &position : nullptr, time, weights);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < structure_.particles(); ++i) {
-    entries.emplace_back(i, i, weights.self(i));
-    for (int e = first[i]; e < first[i + 1]; ++e) entries.emplace_back(i, column[e], weights.neighbour(e));
-  }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(structure_.particles(), structure_.particles());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
 }
 
 }  // namespace billow::sim

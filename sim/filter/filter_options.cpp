@@ -5,7 +5,8 @@ namespace billow::sim {
 
 Words<FilterKernel> words(FilterKernel) {
   static constexpr Word<FilterKernel> list[] = {{"exponential", FilterKernel::exponential},
-                                                {"gaussian", FilterKernel::gaussian}};
+                                                {"gaussian", FilterKernel::gaussian},
+                                                {"levels", FilterKernel::levels}};
   return list;
 }
 
@@ -42,6 +43,15 @@ double lambda_factor(const FilterOptions& options, double time) {
       return keys[k - 1].second + t * (keys[k].second - keys[k - 1].second);
     }
   return keys.back().second;
+}
+
+FilterOptions frozen_options(FilterOptions options, double time) {
+  const double factor = lambda_factor(options, time);
+  options.lambda *= factor;
+  options.particle_lambda *= factor;
+  options.lambda_keys.clear();
+  options.distances = FilterDistances::rest;
+  return options;
 }
 
 // Between keys the factor is never beyond them.

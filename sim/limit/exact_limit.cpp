@@ -343,7 +343,7 @@ std::optional<CertifiedStep> limit_of_mean_filter(const LinearisedStep& step) {
 
 // An eigenvalue of F below 0 makes one of I - F larger than 1.
 bool turns_motions_around(const LinearisedStep& step) {
-  if (step.filter->options().form == FilterForm::conserving) return false;
+  if (step.filter->nonnegative()) return false;
   MeanFilter filter(step, nullptr);
   const auto taken = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
     filter.apply(x, -1.0, y);

@@ -18,7 +18,7 @@ EigenvalueEstimate filtered_eigenvalue(const Structure& structure, const Stiffne
     y = x;
     filter.apply(structure.rest_position, 0.0, y, scratch);
   };
-  if (filter.options().form == FilterForm::conserving) {
+  if (filter.nonnegative()) {
     const ExtremeEigenvalue found = largest_eigenvalue(
         {acceleration, filtered, free_mass},
         {.tolerance = options.tolerance, .max_iterations = options.max_iterations, .seed = options.seed});

@@ -94,15 +94,18 @@ void Solver::go_back(const Checkpoint& checkpoint) {
   state_ = checkpoint.state, previous_ = checkpoint.previous;
   ticks_ = checkpoint.ticks, steps_ = checkpoint.steps;
   work_ = checkpoint.work, largest_strain_ = checkpoint.largest_strain;
+  looked_at_square_ = 0.0;
 }
 
-// A particle that crosses a whole rest length in one step is suspect, and then every spring is looked at.
+// Speeds that come to a rest length a step and have doubled since springs were last looked at are suspect: what grows
+// without end is looked at again and again, what merely falls is not.
 void Solver::check_divergence() {
   const double speed_square = state_.velocity.squaredNorm();
   double reach = 0.0;
   for (const Body& body : structure_.body) reach = std::max(reach, body.mean_rest_length / step());
-  const bool suspect = !(speed_square < reach * reach);
+  const bool suspect = !(speed_square < std::max(reach * reach, 4.0 * looked_at_square_));
   if (!suspect && steps_ % strain_check_interval != 0) return;
+  looked_at_square_ = speed_square;
   const double strain = worst_spring(structure_, state_).strain;
   largest_strain_ = std::max(largest_strain_, strain);
   if (!std::isfinite(speed_square) || !std::isfinite(state_.position.sum()) || strain > options_.max_strain)

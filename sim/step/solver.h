@@ -91,6 +91,7 @@ class Solver {
   State state_, previous_;
   State before_;  // the step, where work is to be accounted for
   double start_time_ = 0.0, work_ = 0.0, largest_strain_ = 0.0;
+  double looked_at_square_ = 0.0;  // [m^2/s^2] the speeds' squares when every spring was last looked at
   int halvings_ = 0;
   long ticks_ = 0, steps_ = 0;
 };

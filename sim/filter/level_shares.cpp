@@ -1,0 +1,152 @@
+// Eigenvalues of every level, and the root in a.
+#include "sim/filter/level_shares.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "sim/body/spring_law.h"
+#include "sim/linear/lanczos.h"
+
+namespace billow::sim {
+
+namespace {
+
+using Laplacian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+constexpr double eigenvalue_tolerance = 2e-3;  // of their error bounds; they count with it
+constexpr double share_tolerance = 3e-3;       // R may be missed by so much, from below
+constexpr double reserve = 0.9;                // of R, that the last level stays below
+
+// L with the springs' steepest slopes.
+Laplacian spring_bound(const Structure& structure) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Body& body : structure.body)
+    for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
+      const int i = structure.spring(s, 0), j = structure.spring(s, 1);
+      const double k = steepest_slope(body, structure.kind[static_cast<std::size_t>(s)], structure.rest_length(s),
+                                      structure.stiffness(s));
+      for (const auto& [row, column, value] : {std::tuple(i, i, k), {j, j, k}, {i, j, -k}, {j, i, -k}})
+        entries.emplace_back(row, column, value);
+    }
+  Laplacian l(structure.particles(), structure.particles());
+  l.setFromTriplets(entries.begin(), entries.end());
+  return l;
+}
+
+/// lambda_max(F M^-1 L) of one body.
+class BodySpectrum {
+ public:
+  BodySpectrum(const Structure& structure, const Body& body, const Laplacian& laplacian, LevelSum& sum)
+      : structure_(structure), laplacian_(laplacian), sum_(sum) {
+    mass_.setZero(structure.particles());
+    for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
+      if (!structure.pinned(i)) mass_(i) = structure.mass(i);
+  }
+
+  double unfiltered() const { return largest({}); }
+  double filtered(LevelShares shares) {
+    sum_.set_shares(std::move(shares));
+    return largest([this](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+      y.setZero(x.rows(), 3);
+      sum_.run(columns_of(x, y), rows_);
+    });
+  }
+
+ private:
+  double largest(const ParticleOperator& filter) const {
+    const auto acceleration = [this](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
+      y = structure_.inverse_mass.asDiagonal() * (laplacian_ * x);
+    };
+    return largest_eigenvalue({acceleration, filter, mass_}, {.tolerance = eigenvalue_tolerance}).upper();
+  }
+
+  const Structure& structure_;
+  const Laplacian& laplacian_;
+  LevelSum& sum_;
+  Eigen::VectorXd mass_;
+  std::vector<AlignedVector<double>> rows_;
+};
+
+LevelShares only(std::size_t level, double correction = 0.0) {
+  LevelShares shares{std::vector<double>(level + 1, 0.0), correction};
+  shares.gamma.back() = 1.0;
+  return shares;
+}
+
+/// The largest value up to `high` at which an eigenvalue that is convex in it stays below `most`, by false position:
+/// `low` 0 is known to. Less than `tolerance` of `most` is left unused, unless `high` itself holds.
+double largest_below(double most, double at_low, double high, double tolerance,
+                     const std::function<double(double)>& eigenvalue) {
+  double low = 0.0, at_high = eigenvalue(high);
+  if (at_high <= most) return high;
+  const double narrow = 1e-3 * high;
+  while (most - at_low > tolerance * most && high - low > narrow) {
+    const double aim = most * (1.0 - 0.3 * tolerance);
+    const double middle = low + std::clamp((aim - at_low) / (at_high - at_low), 0.02, 0.98) * (high - low);
+    const double value = eigenvalue(middle);
+    (value <= most ? low : high) = middle;
+    (value <= most ? at_low : at_high) = value;
+  }
+  return low;
+}
+
+// The last level passes smooth fields the better the larger its correction, and its eigenvalue grows with that.
+double largest_correction(BodySpectrum& spectrum, double most, double rho, std::size_t level) {
+  constexpr double rough = 0.05;
+  return largest_below(most, rho, 1.0, rough, [&](double c) { return spectrum.filtered(only(level, c)); });
+}
+
+// The shares that come with a.
+LevelShares shares_at(double a, double most, const std::vector<double>& rho, double correction) {
+  LevelShares shares{{}, correction};
+  double rest = 1.0;
+  for (std::size_t l = 0; l + 1 < rho.size(); ++l) {
+    shares.gamma.push_back(a * most / rho[l]);
+    rest -= shares.gamma.back();
+  }
+  shares.gamma.push_back(rest);
+  return shares;
+}
+
+LevelShares weakest_shares(BodySpectrum& spectrum, double most, const std::vector<double>& rho) {
+  const std::size_t last = rho.size() - 1;
+  const double correction = largest_correction(spectrum, reserve * most, rho[last], last);
+  double total = 0.0;
+  for (std::size_t l = 0; l < last; ++l) total += most / rho[l];
+  const double a = largest_below(most, reserve * most, 1.0 / total, share_tolerance, [&](double tried) {
+    return spectrum.filtered(shares_at(tried, most, rho, correction));
+  });
+  return shares_at(a, most, rho, correction);
+}
+
+void find_for_body(BodySpectrum& spectrum, const Body& body, double most, LevelSum& sum) {
+  std::vector<double> rho{spectrum.unfiltered()};
+  while (rho.back() >= reserve * most) {
+    if (rho.size() == 1 && rho.back() <= most * (1.0 + eigenvalue_tolerance)) break;
+    if (static_cast<int>(rho.size()) == sum.levels())
+      throw InputError(fmt::format("no level of '{}' allows so large a step; use a smaller ratio", body.name));
+    rho.push_back(spectrum.filtered(only(rho.size())));
+  }
+  sum.set_shares(rho.size() == 1 ? only(0) : weakest_shares(spectrum, most, rho));
+}
+
+}  // namespace
+
+void find_level_shares(const Structure& structure, double ratio, std::vector<LevelSum>& bodies) {
+  if (!(ratio >= 1.0) || !std::isfinite(ratio)) throw InputError("the filter's ratio must be a number of at least 1");
+  const Laplacian laplacian = spring_bound(structure);
+  std::vector<BodySpectrum> spectrum;
+  double largest = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    spectrum.emplace_back(structure, structure.body[b], laplacian, bodies[b]);
+    largest = std::max(largest, spectrum.back().unfiltered());
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    find_for_body(spectrum[b], structure.body[b], largest / (ratio * ratio), bodies[b]);
+}
+
+}  // namespace billow::sim

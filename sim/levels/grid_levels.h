@@ -1,0 +1,22 @@
+// Levels of a body whose particles are numbered as a grid is.
+#pragma once
+
+#include <optional>
+
+#include "sim/levels/level_hierarchy.h"
+
+namespace billow::sim {
+
+/// Particle row * columns + column of a body.
+struct GridShape {
+  int rows = 0, columns = 0;
+};
+
+/// Nothing where the structural springs are not those of a whole grid, numbered row by row.
+std::optional<GridShape> grid_shape(const Structure& structure, const Body& body);
+
+/// S of a grid from one with about half as many rows and columns, whose border it shares, so that fields that are
+/// linear along rows and columns are interpolated as they are. `shape` becomes the coarser one's.
+SparseRows bilinear_interpolation(GridShape& shape);
+
+}  // namespace billow::sim
