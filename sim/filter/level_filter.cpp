@@ -1,6 +1,7 @@
 // Down to the coarsest level that takes part, and up again.
 #include "sim/filter/level_filter.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/parallel.h"
@@ -70,20 +71,25 @@ void for_rows(int rows, const Work& work) {
   for_each_range(rows, 1, least_part_of_a_pass, [&](int, int begin, int end) { work(begin, end); });
 }
 
+// Rows of a grid, each of `width` particles.
+template <class Work>
+void for_grid_rows(int rows, int width, const Work& work) {
+  for_each_range(rows, 1, std::max(1, least_part_of_a_pass / width), work, width);
+}
+
 }  // namespace
 
-void LevelSum::run(const FilterColumns& columns, std::vector<AlignedVector<double>>& rows) const {
+void LevelSum::run(const FilterColumns& columns, FilterScratch& scratch) const {
   const std::size_t top = factor_.size();
   if (top == 0) return pass_through(columns);
+  std::vector<AlignedVector<double>>& rows = scratch.level;
   if (rows.size() < top + 2) rows.resize(top + 2);
-  for (std::size_t l = 0; l <= top; ++l)
+  for (std::size_t l = level(1).grid ? 1 : 0; l <= top; ++l)
     if (const auto size = 4 * static_cast<std::size_t>(nodes(static_cast<int>(l))); rows[l].size() < size)
       rows[l].resize(size);
-  const auto level = [&](std::size_t l) -> const Level& { return hierarchy_.level[l - 1]; };
-  for_rows(particles_, [&](int begin, int end) {
-    put_momenta(columns, first_particle_, mass_.data(), rows[0].data(), begin, end);
-  });
-  for (std::size_t l = 1; l <= top; ++l)
+  scratch.pass.prepare();
+  restrict_particles(columns, scratch);
+  for (std::size_t l = 2; l <= top; ++l)
     for_rows(level(l).nodes(), [&](int begin, int end) {
       restrict_rows(level(l).restriction, rows[l - 1].data(), rows[l].data(), begin, end);
     });
@@ -94,8 +100,31 @@ void LevelSum::run(const FilterColumns& columns, std::vector<AlignedVector<doubl
       interpolate_rows(l == top ? level(l).interpolation : level(l + 1).interpolation, coarser, factor_[l - 1].data(),
                        rows[l].data(), begin, end);
     });
+  put_particles(columns, scratch);
+}
+
+void LevelSum::restrict_particles(const FilterColumns& columns, FilterScratch& scratch) const {
+  double *const fine = scratch.level[0].data(), *const coarse = scratch.level[1].data();
+  if (const auto& grid = level(1).grid)
+    return for_grid_rows(grid->down.nodes(), 2 * grid->along.fine(), [&](int part, int begin, int end) {
+      restrict_grid(*grid, columns, first_particle_, mass_.data(), coarse, begin, end, scratch.pass.part(part));
+    });
+  for_rows(particles_,
+           [&](int begin, int end) { put_momenta(columns, first_particle_, mass_.data(), fine, begin, end); });
+  for_rows(level(1).nodes(),
+           [&](int begin, int end) { restrict_rows(level(1).restriction, fine, coarse, begin, end); });
+}
+
+void LevelSum::put_particles(const FilterColumns& columns, FilterScratch& scratch) const {
+  const double* const coarse = scratch.level[1].data();
+  const SparseRows& interpolation = level(1).interpolation;
+  if (const auto& grid = level(1).grid)
+    return for_grid_rows(grid->down.fine(), grid->along.fine(), [&](int part, int begin, int end) {
+      put_interpolated_grid(*grid, interpolation, coarse, shares_.gamma[0], columns, first_particle_, begin, end,
+                            scratch.pass.part(part));
+    });
   for_rows(particles_, [&](int begin, int end) {
-    put_interpolated(level(1).interpolation, rows[1].data(), shares_.gamma[0], columns, first_particle_, begin, end);
+    put_interpolated(interpolation, coarse, shares_.gamma[0], columns, first_particle_, begin, end);
   });
 }
 
@@ -153,7 +182,7 @@ std::vector<LevelShares> LevelFilter::shares() const {
 }
 
 void LevelFilter::run(const FilterColumns& columns, FilterScratch& scratch) const {
-  for (const LevelSum& body : body_) body.run(columns, scratch.level);
+  for (const LevelSum& body : body_) body.run(columns, scratch);
 }
 
 Matrix LevelFilter::matrix(const Eigen::MatrixX3d&, double) const {

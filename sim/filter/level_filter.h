@@ -26,11 +26,14 @@ class LevelSum {
   void set_shares(LevelShares shares);
   const LevelShares& shares() const { return shares_; }
 
-  void run(const FilterColumns& columns, std::vector<AlignedVector<double>>& rows) const;
+  void run(const FilterColumns& columns, FilterScratch& scratch) const;
   /// Its entries, at the body's particles.
   void add_to(std::vector<Eigen::Triplet<double>>& entries) const;
 
  private:
+  const Level& level(std::size_t number) const { return hierarchy_.level[number - 1]; }
+  void restrict_particles(const FilterColumns& columns, FilterScratch& scratch) const;
+  void put_particles(const FilterColumns& columns, FilterScratch& scratch) const;
   void pass_through(const FilterColumns& columns) const;
   Eigen::SparseMatrix<double, Eigen::RowMajor> interpolation(int level) const;
   void correct(std::vector<AlignedVector<double>>& rows) const;

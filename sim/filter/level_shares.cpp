@@ -52,7 +52,7 @@ class BodySpectrum {
     sum_.set_shares(std::move(shares));
     return largest([this](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
       y.setZero(x.rows(), 3);
-      sum_.run(columns_of(x, y), rows_);
+      sum_.run(columns_of(x, y), scratch_);
     });
   }
 
@@ -68,7 +68,7 @@ class BodySpectrum {
   const Laplacian& laplacian_;
   LevelSum& sum_;
   Eigen::VectorXd mass_;
-  std::vector<AlignedVector<double>> rows_;
+  FilterScratch scratch_;
 };
 
 LevelShares only(std::size_t level, double correction = 0.0) {

@@ -22,25 +22,30 @@ bool is_grid(const Structure& structure, const Body& body, int columns) {
   return found == 2L * rows * columns - rows - columns;
 }
 
-/// Where a place between 0 and fine - 1 lies between coarse nodes that share its ends.
-struct Between {
-  int node = 0;        // and the one after it
-  double share = 0.0;  // of that one
-};
-
-std::vector<Between> places(int fine, int coarse) {
-  std::vector<Between> result;
+// Evenly spaced nodes from the first place to the last.
+AxisInterpolation between(int fine, int nodes) {
+  AxisInterpolation axis;
   for (int i = 0; i < fine; ++i) {
-    if (coarse == 1) {
-      result.push_back({0, 0.0});
-      continue;
-    }
     // Whole numbers, so that a node's own place is exact.
-    const long scaled = static_cast<long>(i) * (coarse - 1);
-    const int node = static_cast<int>(std::min<long>(scaled / (fine - 1), coarse - 2));
-    result.push_back({node, static_cast<double>(scaled - static_cast<long>(node) * (fine - 1)) / (fine - 1)});
+    const long scaled = nodes == 1 ? 0 : static_cast<long>(i) * (nodes - 1);
+    const long lower = nodes == 1 ? 0 : std::min<long>(scaled / (fine - 1), nodes - 2);
+    const double share = nodes == 1 ? 0.0 : static_cast<double>(scaled - lower * (fine - 1)) / (fine - 1);
+    axis.lower.push_back(static_cast<int>(lower));
+    axis.upper.push_back(std::min(static_cast<int>(lower) + 1, nodes - 1));
+    axis.lower_weight.push_back(1.0 - share);
+    axis.upper_weight.push_back(share);
   }
-  return result;
+  for (int node = 0; node < nodes; ++node) {
+    for (std::size_t i = 0; i < axis.lower.size(); ++i)
+      for (const auto& [at, weight] :
+           {std::pair(axis.lower[i], axis.lower_weight[i]), std::pair(axis.upper[i], axis.upper_weight[i])})
+        if (at == node && weight > 0.0) {
+          axis.restriction.column.push_back(static_cast<int>(i));
+          axis.restriction.weight.push_back(weight);
+        }
+    axis.restriction.first.push_back(static_cast<int>(axis.restriction.column.size()));
+  }
+  return axis;
 }
 
 int halved(int count) { return count > 2 ? (count + 1) / 2 : count; }
@@ -56,26 +61,32 @@ std::optional<GridShape> grid_shape(const Structure& structure, const Body& body
   return GridShape{body.particles / columns, columns};
 }
 
-SparseRows bilinear_interpolation(GridShape& shape) {
+GridInterpolation bilinear_interpolation(GridShape& shape) {
   const GridShape coarse =
       shape.rows <= 2 && shape.columns <= 2 ? GridShape{1, 1} : GridShape{halved(shape.rows), halved(shape.columns)};
-  const std::vector<Between> down = places(shape.rows, coarse.rows), along = places(shape.columns, coarse.columns);
-  SparseRows result;
-  for (const Between& y : down)
-    for (const Between& x : along) {
+  GridInterpolation grid{between(shape.columns, coarse.columns), between(shape.rows, coarse.rows), {}};
+  grid.pinned.assign(static_cast<std::size_t>(shape.rows), 0);
+  shape = coarse;
+  return grid;
+}
+
+SparseRows rows_of(const GridInterpolation& grid) {
+  const AxisInterpolation &along = grid.along, &down = grid.down;
+  SparseRows rows;
+  for (std::size_t y = 0; y < down.lower.size(); ++y)
+    for (std::size_t x = 0; x < along.lower.size(); ++x) {
       const auto add = [&](int row, int column, double weight) {
         if (weight == 0.0) return;
-        result.column.push_back((y.node + row) * coarse.columns + x.node + column);
-        result.weight.push_back(weight);
+        rows.column.push_back(row * along.nodes() + column);
+        rows.weight.push_back(weight);
       };
-      add(0, 0, (1.0 - y.share) * (1.0 - x.share));
-      add(0, 1, (1.0 - y.share) * x.share);
-      add(1, 0, y.share * (1.0 - x.share));
-      add(1, 1, y.share * x.share);
-      result.first.push_back(static_cast<int>(result.column.size()));
+      add(down.lower[y], along.lower[x], down.lower_weight[y] * along.lower_weight[x]);
+      add(down.lower[y], along.upper[x], down.lower_weight[y] * along.upper_weight[x]);
+      add(down.upper[y], along.lower[x], down.upper_weight[y] * along.lower_weight[x]);
+      add(down.upper[y], along.upper[x], down.upper_weight[y] * along.upper_weight[x]);
+      rows.first.push_back(static_cast<int>(rows.column.size()));
     }
-  shape = coarse;
-  return result;
+  return rows;
 }
 
 }  // namespace billow::sim

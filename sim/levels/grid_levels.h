@@ -15,8 +15,11 @@ struct GridShape {
 /// Nothing where the structural springs are not those of a whole grid, numbered row by row.
 std::optional<GridShape> grid_shape(const Structure& structure, const Body& body);
 
-/// S of a grid from one with about half as many rows and columns, whose border it shares, so that fields that are
-/// linear along rows and columns are interpolated as they are. `shape` becomes the coarser one's.
-SparseRows bilinear_interpolation(GridShape& shape);
+/// From a grid with about half as many rows and columns, whose border it shares, so that fields that are linear along
+/// rows and columns are interpolated as they are. `shape` becomes the coarser one's. No row is said to be pinned.
+GridInterpolation bilinear_interpolation(GridShape& shape);
+
+/// S of it, a row for each finer place.
+SparseRows rows_of(const GridInterpolation& grid);
 
 }  // namespace billow::sim

@@ -61,6 +61,23 @@ void add_level(LevelHierarchy& levels, const Eigen::VectorXd& finer_mass, Sparse
   levels.level.push_back(std::move(level));
 }
 
+void mark_pinned_rows(GridInterpolation& grid, const std::vector<bool>& present) {
+  for (std::size_t i = 0; i < present.size(); ++i)
+    if (!present[i]) grid.pinned[i / grid.along.lower.size()] = 1;
+}
+
+void add_grid_levels(LevelHierarchy& levels, GridShape shape, const Eigen::VectorXd& mass,
+                     const std::vector<bool>& present) {
+  while (shape.rows * shape.columns > 1) {
+    GridInterpolation grid = bilinear_interpolation(shape);
+    SparseRows rows = rows_of(grid);
+    const bool first = levels.level.empty();
+    if (first) rows = without_rows(rows, present), mark_pinned_rows(grid, present);
+    add_level(levels, first ? mass : levels.level.back().mass, std::move(rows), shape.rows * shape.columns);
+    if (first) levels.level.back().grid = std::move(grid);
+  }
+}
+
 }  // namespace
 
 LevelHierarchy build_levels(const Structure& structure, const Body& body) {
@@ -71,13 +88,8 @@ LevelHierarchy build_levels(const Structure& structure, const Body& body) {
     present.push_back(!structure.pinned(body.first_particle + i));
     if (!present.back()) mass(i) = 0.0;
   }
-  if (std::optional<GridShape> shape = grid_shape(structure, body)) {
-    while (shape->rows * shape->columns > 1) {
-      SparseRows rows = bilinear_interpolation(*shape);
-      if (levels.level.empty()) rows = without_rows(rows, present);
-      add_level(levels, mass, std::move(rows), shape->rows * shape->columns);
-      mass = levels.level.back().mass;
-    }
+  if (const std::optional<GridShape> shape = grid_shape(structure, body)) {
+    add_grid_levels(levels, *shape, mass, present);
     return levels;
   }
   Adjacency graph = spring_graph(structure, body);

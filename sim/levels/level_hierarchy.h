@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "base/aligned.h"
@@ -17,11 +18,29 @@ struct SparseRows {
   int rows() const { return static_cast<int>(first.size()) - 1; }
 };
 
+/// Linear interpolation along one axis of a grid.
+struct AxisInterpolation {
+  std::vector<int> lower, upper;                     // of each finer place: the nodes it lies between,
+  AlignedVector<double> lower_weight, upper_weight;  // and their weights
+  SparseRows restriction;                            // the same by nodes
+
+  int fine() const { return static_cast<int>(lower.size()); }
+  int nodes() const { return restriction.rows(); }
+};
+
+/// Bilinear interpolation: along the rows of a grid whose particle row * along.fine() + column is, and down its
+/// columns.
+struct GridInterpolation {
+  AxisInterpolation along, down;
+  std::vector<char> pinned;  // of each row: whether a particle of it is
+};
+
 /// One level: its nodes, and how the next finer level's nodes (the body's particles, for the first level) follow them.
 struct Level {
-  SparseRows interpolation;  // S: a row for each finer node, >= 0, of sum 1; none for a pinned particle
-  SparseRows restriction;    // its transpose: a row for each node of this level
-  Eigen::VectorXd mass;      // [kg] D = S^T (the finer level's), so that the masses of every level sum to the same
+  SparseRows interpolation;               // S: a row for each finer node, >= 0, of sum 1; none for a pinned particle
+  SparseRows restriction;                 // its transpose: a row for each node of this level
+  std::optional<GridInterpolation> grid;  // the same, on the first level of a grid
+  Eigen::VectorXd mass;  // [kg] D = S^T (the finer level's), so that the masses of every level sum to the same
   int nodes() const { return restriction.rows(); }
 };
 

@@ -25,4 +25,15 @@ void interpolate_rows(const SparseRows& interpolation, const double* coarse, con
 void put_interpolated(const SparseRows& interpolation, const double* coarse, double share, const FilterColumns& columns,
                       int first_particle, int begin, int end);
 
+/// put_momenta and restrict_rows in one, on a grid: the nodes of rows [begin, end) of the coarser one. Sums are taken
+/// down the columns first.
+void restrict_grid(const GridInterpolation& grid, const FilterColumns& columns, int first_particle, const double* mass,
+                   double* coarse, int begin, int end, PartScratch& scratch);
+
+/// put_interpolated on a grid's particles of rows [begin, end), along the rows first. Rows with pinned particles are
+/// left to put_interpolated, by `interpolation`.
+void put_interpolated_grid(const GridInterpolation& grid, const SparseRows& interpolation, const double* coarse,
+                           double share, const FilterColumns& columns, int first_particle, int begin, int end,
+                           PartScratch& scratch);
+
 }  // namespace billow::sim
