@@ -52,6 +52,7 @@ struct Request {
   RenderOptions render;
   SceneOptions scene;
   StabilityOptions stability;
+  FilterCommandOptions filter;
   CompareOptions compare;
   StudyOptions study;
   std::vector<std::string> overrides;
@@ -123,6 +124,20 @@ void add_stability(CLI::App& app, Request& r) {
   });
 }
 
+void add_filter(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand(
+      "filter", "Print a scene's levels, and plot what its filter and others keep of waves of every frequency");
+  add_scene_options(c, r.filter.scene.scene, r);
+  c.add_flag("--json", r.filter.scene.json, "Print JSON and write no plot");
+  c.add_option("--body", r.filter.body, "Whose waves (default: the scene's first body)")->type_name("NAME");
+  c.add_option("-o,--output", r.filter.output, "Folder to write to (default: out/ and the scene's name with -filter)")
+      ->type_name("DIR");
+  c.final_callback([&r] {
+    for (const std::string& text : r.overrides) r.filter.scene.overrides.push_back(parse_override(text));
+    r.command = [&r] { return filter_command(r.filter); };
+  });
+}
+
 void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
@@ -159,6 +174,7 @@ void add_commands(CLI::App& app, Request& r) {
                     check_command);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
   add_stability(app, r);
+  add_filter(app, r);
   add_study(app, r);
   add_compare(app, r);
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {

@@ -4,6 +4,7 @@
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/watched_scene.h"
+#include "cli/scene/filter_text.h"
 #include "cli/scene/simulation.h"
 #include "cli/scene/step_warnings.h"
 
@@ -22,6 +23,7 @@ int check_command(const SceneOptions& options) {
   fmt::print(stderr, "{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})\n",
              scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
              structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
+  for (const std::string& line : level_lines(simulation)) fmt::print(stderr, "{}\n", line);
   for (const std::string& warning : step_warnings(structure, choice)) fmt::print(stderr, "warning: {}\n", warning);
   return exit_done;
 }

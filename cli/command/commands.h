@@ -28,6 +28,13 @@ struct StabilityOptions {
 };
 int stability_command(const StabilityOptions& options);
 
+struct FilterCommandOptions {
+  SceneOptions scene;
+  std::string body;              // whose waves; empty: the first
+  std::filesystem::path output;  // empty: out/ and the scene's name with "-filter"
+};
+int filter_command(const FilterCommandOptions& options);
+
 struct CompareOptions {
   std::filesystem::path a, b;
   std::filesystem::path difference;  // empty: none written

@@ -52,6 +52,7 @@ struct FilmReport {
   std::optional<std::string> divergence = {};  // the message, when the run diverged
   std::vector<sim::Incident> incidents = {};   // what went wrong and was mended
   double largest_strain = 0.0;                 // [rest lengths] of any spring
+  std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 
 /// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the

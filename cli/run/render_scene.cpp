@@ -49,12 +49,20 @@ void add_warnings_of_solves(const sim::SolveCounts& solves, Warnings& warnings) 
         solves.failures, solves.solves));
 }
 
+// Below it, motion that one sees is slowed by as much again as its response's root.
+constexpr double least_response = 0.9;
+
 Warnings warnings_after(const Run& run, const FilmReport& report) {
   Warnings warnings;
   for (const sim::Incident& incident : report.incidents) warnings.push_back(incident_text(incident, run.choice.step));
   if (report.largest_strain > sim::suspect_strain)
     warnings.push_back(fmt::format(
         "a spring was stretched by {:.3g} times its rest length, which its stiffness allowed", report.largest_strain));
+  if (report.filter_response && *report.filter_response < least_response)
+    warnings.push_back(
+        fmt::format("the filter passes {:.0f} % of the motion's own accelerations, so that what one sees is slowed; "
+                    "take a smaller ratio, a larger lambda or fewer passes",
+                    100.0 * *report.filter_response));
   add_warnings_of_solves(report.solves, warnings);
   return warnings;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/run/output_folder.h"
+#include "cli/scene/filter_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -12,20 +13,11 @@ namespace {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-std::string filter_text(const Scene& scene) {
-  if (!scene.solver.filter) return "none";
-  const sim::FilterOptions& filter = *scene.solver.filter;
-  const std::string lambda =
-      scene.solver.lambda_expression.empty() ? fmt::format("{:.4g}", filter.lambda) : scene.solver.lambda_expression;
-  return fmt::format("{}, λ = {}{}, {}, of {}{}", word_of(filter.kernel), lambda,
-                     filter.lambda_keys.empty() ? "" : " (changing over time)", word_of(filter.form),
-                     sim::name(filter.target), filter.passes > 1 ? fmt::format(", {} passes", filter.passes) : "");
-}
-
 std::string summary(const Run& run) {
   const sim::Structure& structure = run.simulation.structure();
   return fmt::format("{} particles, {} springs; {} at {:.4g} s a step; filter: {}", structure.particles(),
-                     structure.springs(), sim::name(run.scene.solver.method), run.choice.step, filter_text(run.scene));
+                     structure.springs(), sim::name(run.scene.solver.method), run.choice.step,
+                     filter_text(run.scene, run.simulation));
 }
 
 std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.4g} s", *limit) : "none"; }
@@ -59,7 +51,7 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
                                                     choice.k0.converged ? "" : " (the search did not settle)")}};
   if (choice.filtered) facts.emplace_back("With the filter", fmt::format("{:.4g} /s²", choice.filtered->value));
   facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
-                             {"Filter", filter_text(scene)},
+                             {"Filter", filter_text(run.scene, run.simulation)},
                              {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
                              {"Step limits", limits_text(choice)},
                              {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,

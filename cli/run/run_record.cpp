@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "cli/run/incident_text.h"
+#include "cli/scene/filter_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -41,6 +42,20 @@ Json watch_record(const Scene& scene, const StepChoice& choice, const FilmReport
   return json;
 }
 
+Json filter_record(const Run& run, const FilmReport& report) {
+  const sim::Filter* filter = run.simulation.filter_operator();
+  if (!filter) return {};
+  Json json = {{"text", filter_text(run.scene, run.simulation)}};
+  json["response"] = optional(report.filter_response);
+  if (filter->options().kernel != sim::FilterKernel::levels) return json;
+  json["ratio"] = filter->options().ratio;
+  json["levels"] = Json::array();
+  for (const sim::LevelTable& body : filter->levels())
+    json["levels"].push_back(
+        {{"nodes", body.nodes}, {"gamma", body.shares.gamma}, {"correction", body.shares.correction}});
+  return json;
+}
+
 Json solver_record(const Run& run, const FilmReport& report) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
@@ -53,6 +68,7 @@ Json solver_record(const Run& run, const FilmReport& report) {
                  {"any_shape", optional(choice.any_shape)}}},
                {"k0", estimate(choice.k0)}};
   if (choice.filtered) json["filtered_eigenvalue"] = estimate(*choice.filtered);
+  json["filter"] = filter_record(run, report);
   json["steps"] = report.steps;
   json["simulated_time"] = report.simulated_time;
   json["set_by"] = choice.setter ? Json(sim::text_of(run.simulation.structure(), *choice.setter)) : Json();

@@ -31,8 +31,9 @@ struct SolverSpec {
   double safety = 0.9;  // in (0, 1], for the other two rules
   bool watch = true;    // smaller steps where the run goes wrong; otherwise it is only said
   std::optional<sim::FilterOptions> filter;
+  bool levels_choose = false;     // their own ratio: filter->ratio says nothing
   std::string lambda_expression;  // lambda as a formula over the particles; empty: filter->lambda everywhere
-  std::string lambda_where;       // its place in the scene
+  std::string filter_where;       // place in the scene of what the filter's faults are, lambda's or the ratio's
 };
 
 /// One body of the scene, its mesh already imported.

@@ -143,7 +143,7 @@ const Section filter{"filter",
                       {"radius", above_0(100, "mean rest lengths")},
                       {"distances", {}, all_words<sim::FilterDistances>()},
                       {"passes", between(1, 100)},
-                      {"ratio", between(1, 1000)}}};
+                      {"ratio", between(1, 1000), {"auto"}}}};
 
 const Section render{"render",
                      {{"size", between(16, 8192, "pixels")},

@@ -44,8 +44,25 @@ void read_lambda(MapReader& map, SolverSpec& solver) {
     return;
   }
   solver.lambda_expression = node->text;
-  solver.lambda_where = node->where;
   map.record("lambda", make_scalar(node->text, true));
+}
+
+void refuse_keys(const MapReader& filter, std::initializer_list<std::string_view> keys, std::string_view advice) {
+  for (const std::string_view key : keys)
+    if (filter.find(key)) fail_at(filter.where(key), fmt::format("'{}' means nothing here: {}", key, advice));
+}
+
+void read_levels(MapReader& map, SolverSpec& solver) {
+  refuse_keys(map, {"lambda", "lambda_keys", "form", "neighbours", "radius", "distances", "passes"},
+              "levels are set by their 'ratio' alone");
+  sim::FilterOptions& filter = *solver.filter;
+  filter.target = map.choice("target", sim::FilterTarget::force);
+  if (filter.target != sim::FilterTarget::force)
+    fail_at(map.where("target"), "levels filter forces: of velocities they would damp every fold; use 'target: force'");
+  const std::optional<double> ratio = map.number_or_word("ratio");
+  solver.levels_choose = !ratio;
+  if (ratio) filter.ratio = *ratio;
+  solver.filter_where = map.where("ratio");
 }
 
 void read_filter(MapReader& parent, SolverSpec& solver) {
@@ -53,6 +70,9 @@ void read_filter(MapReader& parent, SolverSpec& solver) {
   MapReader map = parent.map("filter", keys::section("solver.filter"));
   sim::FilterOptions& filter = solver.filter.emplace();
   filter.kernel = map.choice("kernel", filter.kernel);
+  if (filter.kernel == sim::FilterKernel::levels) return read_levels(map, solver);
+  refuse_keys(map, {"ratio"}, "it belongs to 'kernel: levels'");
+  solver.filter_where = map.where("lambda");
   read_lambda(map, solver);
   filter.lambda_keys = read_lambda_keys(map);
   filter.form = map.choice("form", filter.form);
@@ -61,7 +81,6 @@ void read_filter(MapReader& parent, SolverSpec& solver) {
   filter.radius = map.number("radius", filter.radius);
   filter.distances = map.choice("distances", filter.distances);
   filter.passes = map.integer("passes", filter.passes);
-  filter.ratio = map.number("ratio", filter.ratio);
 }
 
 // auto, paper, or seconds.

@@ -5,7 +5,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "base/error.h"
-#include "cli/scene/particle_expression.h"
+#include "cli/scene/scene_filter.h"
 #include "cli/scene/scene_parts.h"
 #include "sim/filter/filter.h"
 #include "sim/limit/certificate.h"
@@ -30,35 +30,16 @@ sim::State start_of(const Scene& scene, const sim::Structure& structure) {
   return state;
 }
 
-// lambda at every particle, where the scene gives a formula for it. Throws InputError located there.
-std::optional<sim::FilterOptions> filter_of(const Scene& scene, const sim::Structure& structure) {
-  std::optional<sim::FilterOptions> filter = scene.solver.filter;
-  if (!filter || scene.solver.lambda_expression.empty()) return filter;
-  filter->particle_lambda.resize(structure.particles());
-  try {
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      const sim::Body& body = structure.body[b];
-      const Eigen::MatrixX3d position = structure.rest_position.middleRows(body.first_particle, body.particles);
-      filter->particle_lambda.segment(body.first_particle, body.particles) =
-          evaluate_at_particles(scene.solver.lambda_expression, position, particle_mesh(scene.bodies[b]));
-    }
-    if (!(filter->particle_lambda.minCoeff() > 0.0)) throw InputError("lambda must be positive at every particle");
-  } catch (const InputError& error) {
-    throw InputError(scene.solver.lambda_where + ": " + error.what());
-  }
-  return filter;
-}
-
 }  // namespace
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       structure_(build_structure(scene)),
       forces_(std::make_unique<sim::Forces>(structure_, scene.gravity)),
-      initial_(start_of(scene, structure_)),
-      filter_(filter_of(scene, structure_)) {
-  if (filter_) operator_.emplace(structure_, *filter_);
+      initial_(start_of(scene, structure_)) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) add_laws(scene, structure_, static_cast<int>(b), *forces_);
+  operator_ = make_filter(scene, structure_, *forces_);
+  if (operator_) filter_ = operator_->options();
 }
 
 sim::SolverOptions Simulation::solver_options(const StepChoice& choice) const {

@@ -50,8 +50,10 @@ class Simulation {
   const sim::Structure& structure() const { return structure_; }
   const sim::Forces& forces() const { return *forces_; }
   const sim::State& initial_state() const { return initial_; }
-  /// The scene's filter, its lambda evaluated at every particle; none where the scene does not filter.
+  /// The scene's filter as make_filter chose it; none where the scene does not filter, or need not.
   const std::optional<sim::FilterOptions>& filter() const { return filter_; }
+  /// The same as an operator; null for none.
+  const sim::Filter* filter_operator() const { return operator_ ? &*operator_ : nullptr; }
 
   /// A solver at the scene's start, taking steps of `choice`.
   std::unique_ptr<sim::Solver> make_solver(const StepChoice& choice) const;

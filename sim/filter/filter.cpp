@@ -10,7 +10,7 @@
 namespace billow::sim {
 
 Filter::Filter(const Structure& structure, FilterOptions options)
-    : structure_(structure), options_(std::move(options)) {
+    : structure_(&structure), options_(std::move(options)) {
   if (options_.kernel == FilterKernel::levels) {
     auto levels = std::make_shared<LevelFilter>(structure, options_);
     options_.level_shares = levels->shares();
@@ -44,17 +44,17 @@ void Filter::take_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3
                                FilterScratch& scratch) const {
   scratch.before.clear();
   if (!restores_momenta_) return;
-  for (const Body& body : structure_.body) {
-    scratch.before.push_back(body_motion(structure_, body, position, field));
-    if (is_free(structure_, body)) set_momenta(structure_, body, position, BodyMotion{}, field);
+  for (const Body& body : structure_->body) {
+    scratch.before.push_back(body_motion(*structure_, body, position, field));
+    if (is_free(*structure_, body)) set_momenta(*structure_, body, position, BodyMotion{}, field);
   }
 }
 
 void Filter::put_rigid_motion(const Eigen::MatrixX3d& position, Eigen::MatrixX3d& field,
                               const FilterScratch& scratch) const {
   for (std::size_t b = 0; b < scratch.before.size(); ++b)
-    if (is_free(structure_, structure_.body[b]))
-      set_momenta(structure_, structure_.body[b], position, scratch.before[b], field);
+    if (is_free(*structure_, structure_->body[b]))
+      set_momenta(*structure_, structure_->body[b], position, scratch.before[b], field);
 }
 
 // The last pass writes where `columns` say.

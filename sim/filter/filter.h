@@ -43,6 +43,8 @@ class Filter {
   bool nonnegative() const { return operator_->nonnegative(); }
   /// Whether its weights depend neither on time nor on the shape.
   bool constant_weights() const { return operator_->constant(); }
+  /// The levels of every body; empty where it is not made of levels.
+  std::vector<LevelTable> levels() const { return operator_->levels(); }
   /// As it is at `time` [s] at rest distances, for good.
   Filter frozen(double time) const;
   /// M^-1 F^T M over such fields, as a filter. Throws std::logic_error where the weights change.
@@ -59,7 +61,7 @@ class Filter {
   void apply_last(const Eigen::MatrixX3d& position, double time, Eigen::MatrixX3d& field, FilterColumns columns,
                   FilterScratch& scratch) const;
 
-  const Structure& structure_;
+  const Structure* structure_;
   FilterOptions options_;
   std::shared_ptr<const FilterOperator> operator_;
   bool restores_momenta_ = false;  // some body's, that is free

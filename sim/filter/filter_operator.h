@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
+#include "sim/filter/filter_options.h"
 #include "sim/filter/filter_scratch.h"
 #include "sim/pass/filter_pass.h"
 
@@ -16,6 +18,12 @@ inline FilterColumns columns_of(const Eigen::MatrixX3d& in, Eigen::MatrixX3d& ou
   for (int axis = 0; axis < 3; ++axis) columns.in[axis] = in.col(axis).data(), columns.out[axis] = out.col(axis).data();
   return columns;
 }
+
+/// Levels of one body that take part, from the particles on.
+struct LevelTable {
+  std::vector<int> nodes;
+  LevelShares shares;
+};
 
 /// One application of F. Pinned particles keep their value.
 class FilterOperator {
@@ -37,6 +45,8 @@ class FilterOperator {
   virtual std::shared_ptr<const FilterOperator> frozen(double time) const = 0;
   /// M^-1 F^T M over fields that are zero in pinned rows. Only for constant ones.
   virtual std::shared_ptr<const FilterOperator> adjoint() const = 0;
+  /// Of every body; empty where it is not made of levels.
+  virtual std::vector<LevelTable> levels() const { return {}; }
   /// F itself (n x n), for tests and analysis.
   virtual Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(const Eigen::MatrixX3d& position, double time) const = 0;
 };

@@ -181,6 +181,16 @@ std::vector<LevelShares> LevelFilter::shares() const {
   return result;
 }
 
+std::vector<LevelTable> LevelFilter::levels() const {
+  std::vector<LevelTable> result;
+  for (const LevelSum& body : body_) {
+    LevelTable table{{}, body.shares()};
+    for (std::size_t l = 0; l < table.shares.gamma.size(); ++l) table.nodes.push_back(body.nodes(static_cast<int>(l)));
+    result.push_back(std::move(table));
+  }
+  return result;
+}
+
 void LevelFilter::run(const FilterColumns& columns, FilterScratch& scratch) const {
   for (const LevelSum& body : body_) body.run(columns, scratch);
 }

@@ -61,6 +61,7 @@ class LevelFilter : public FilterOperator {
   bool constant() const override { return true; }
   std::shared_ptr<const FilterOperator> frozen(double) const override { return std::make_shared<LevelFilter>(*this); }
   std::shared_ptr<const FilterOperator> adjoint() const override { return std::make_shared<LevelFilter>(*this); }
+  std::vector<LevelTable> levels() const override;
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(const Eigen::MatrixX3d& position, double time) const override;
 
  private:

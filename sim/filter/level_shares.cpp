@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "base/error.h"
-#include "sim/body/spring_law.h"
+#include "sim/filter/spring_bound.h"
 #include "sim/linear/lanczos.h"
 
 namespace billow::sim {
@@ -20,22 +20,6 @@ using Laplacian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr double eigenvalue_tolerance = 2e-3;  // of their error bounds; they count with it
 constexpr double share_tolerance = 3e-3;       // R may be missed by so much, from below
 constexpr double reserve = 0.9;                // of R, that the last level stays below
-
-// L with the springs' steepest slopes.
-Laplacian spring_bound(const Structure& structure) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Body& body : structure.body)
-    for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
-      const int i = structure.spring(s, 0), j = structure.spring(s, 1);
-      const double k = steepest_slope(body, structure.kind[static_cast<std::size_t>(s)], structure.rest_length(s),
-                                      structure.stiffness(s));
-      for (const auto& [row, column, value] : {std::tuple(i, i, k), {j, j, k}, {i, j, -k}, {j, i, -k}})
-        entries.emplace_back(row, column, value);
-    }
-  Laplacian l(structure.particles(), structure.particles());
-  l.setFromTriplets(entries.begin(), entries.end());
-  return l;
-}
 
 /// lambda_max(F M^-1 L) of one body.
 class BodySpectrum {
