@@ -15,6 +15,7 @@ namespace billow::cli {
 /// One value of an axis: how tables and legends call it, and what it changes in the base scene.
 struct AxisValue {
   std::string label;
+  std::string curve;  // that plots draw it on; the label, unless several values share one
   std::vector<Override> changes;
 };
 
@@ -23,11 +24,18 @@ struct Axis {
   std::vector<AxisValue> values;  // at least one
 };
 
+/// What a run's motion is compared with: the same run with these changes, so many seconds long.
+struct ReferenceSpec {
+  double until = 0.0;  // [s] 0: nothing is compared
+  std::vector<Override> changes;
+};
+
 /// What every run does.
 struct Measures {
   bool render = true;     // what `billow render` writes: frames, strip, spectrum, page
   bool measured = false;  // bisect for the largest step at which the whole run behaves
   int repeats = 0;        // times to run without rendering, by the clock; 0: none
+  ReferenceSpec error;    // how far its positions are from a reference's
 };
 
 /// Which runs a picture shows: for the named axes, the indices of the values it takes.

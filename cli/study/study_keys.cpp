@@ -25,8 +25,9 @@ const Section study{"the study",
                     {{"billow_study"}, {"title"}, {"about"}, {"scene"}, {"set"}, {"axes"}, {"measure"}, {"pictures"}}};
 
 const Section axis{"axis", {{"name"}, {"key"}, {"values"}}};
-const Section axis_value{"value", {{"label"}, {"set"}}};
-const Section measure{"measure", {{"render"}, {"measured"}, {"repeats", {0, 100}}}};
+const Section axis_value{"value", {{"label"}, {"curve"}, {"set"}}};
+const Section measure{"measure", {{"render"}, {"measured"}, {"repeats", {0, 100}}, {"error"}}};
+const Section error{"error", {{"until", {0.0, 1e5, true, "s"}}, {"set"}}};
 const Section picture_strips{"picture", with_common({{"rows"}, times, {"views", {}, all_words<render::View>()}})};
 const Section picture_spectra{"picture", with_common({{"columns"}})};
 const Section picture_frames{"picture", with_common({{"rows"}, times, views})};

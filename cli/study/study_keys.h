@@ -6,8 +6,8 @@
 
 namespace billow::cli::keys {
 
-extern const Section study, axis, axis_value, measure, picture_strips, picture_spectra, picture_frames, picture_plot,
-    picture_spectrum_curves;
+extern const Section study, axis, axis_value, measure, error, picture_strips, picture_spectra, picture_frames,
+    picture_plot, picture_spectrum_curves;
 
 /// The section of a kind of picture.
 const Section& picture(PictureKind kind);

@@ -203,9 +203,9 @@ class Curves {
   std::vector<render::Curve> curves_;
 };
 
-std::string by_label(const Study& study, const PictureSpec& picture, const StudyRun& run) {
+std::string curve_label(const Study& study, const PictureSpec& picture, const StudyRun& run) {
   std::vector<std::string> labels;
-  for (const int axis : picture.by) labels.push_back(study.axes[axis].values[run.choice[axis]].label);
+  for (const int axis : picture.by) labels.push_back(study.axes[axis].values[run.choice[axis]].curve);
   return fmt::format("{}", fmt::join(labels, ", "));
 }
 
@@ -241,7 +241,7 @@ render::Plot value_plot(const StudyContents& contents, const PictureSpec& pictur
       if (shown.result->status != RunStatus::done) continue;
       const std::optional<double> x = value_in(contents.study, shown, picture.x);
       const std::optional<double> value = value_in(contents.study, shown, y);
-      if (x && value) curves.add(curve_name(picture, y, by_label(contents.study, picture, *shown.run)), *x, *value);
+      if (x && value) curves.add(curve_name(picture, y, curve_label(contents.study, picture, *shown.run)), *x, *value);
     }
   return {picture.title,
           picture.x_label.empty() ? column_label(picture.x) : picture.x_label,
@@ -269,7 +269,7 @@ std::vector<std::pair<double, double>> spectrum_of_run(const Shown& run) {
 render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& picture) {
   Curves curves;
   for (const Shown& run : rendered_runs(contents, picture)) {
-    const std::string by = by_label(contents.study, picture, *run.run);
+    const std::string by = curve_label(contents.study, picture, *run.run);
     for (const auto& [frequency, power] : spectrum_of_run(run))
       curves.add(by.empty() ? "the scene" : by, frequency, power);
   }

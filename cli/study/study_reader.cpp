@@ -42,13 +42,15 @@ std::vector<Override> read_changes(const Node& node) {
 // With `key`: a value of that key, and its own label.
 AxisValue read_keyed_value(const Node& node, const std::string& key) {
   if (node.kind == Node::Kind::null) fail_at(node.where, "an axis's value is empty");
-  return {to_yaml_line(node), {{key, to_yaml_line(node), std::make_shared<Node>(node), node.where}}};
+  return {
+      to_yaml_line(node), to_yaml_line(node), {{key, to_yaml_line(node), std::make_shared<Node>(node), node.where}}};
 }
 
 AxisValue read_labelled_value(const Node& node) {
   MapReader map(node, keys::axis_value, make_map());
   AxisValue value;
   value.label = map.text("label");
+  value.curve = map.text("curve", value.label);
   if (const Node* set = map.find("set")) value.changes = read_changes(*set);
   return value;
 }
@@ -97,6 +99,11 @@ Measures read_measures(MapReader& study) {
   measures.render = map.boolean("render", measures.render);
   measures.measured = map.boolean("measured", measures.measured);
   measures.repeats = map.integer("repeats", measures.repeats);
+  if (map.find("error")) {
+    MapReader error = map.map("error", keys::error);
+    measures.error.until = error.number("until");
+    measures.error.changes = read_changes(error.require("set"));
+  }
   return measures;
 }
 

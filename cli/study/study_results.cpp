@@ -111,6 +111,10 @@ const std::vector<ResultColumn>& result_columns() {
       {"seconds", "computing time", "s"},
       {"cpu_seconds", "processor time", "s"},
       {"iterations_per_solve", "iterations per linear solve", ""},
+      {"error", "position error", "m"},
+      {"error_worst", "largest position error of a moment", "m"},
+      {"energy", "energy at the end", "J"},
+      {"reference_energy", "the reference's energy", "J"},
   };
   return columns;
 }

@@ -16,6 +16,7 @@
 #include "cli/run/render_scene.h"
 #include "cli/run/watched_scene.h"
 #include "cli/scene/hash.h"
+#include "cli/study/reference_error.h"
 #include "cli/text/command_text.h"
 #include "cli/text/version.h"
 #include "sim/limit/paper_step.h"
@@ -89,6 +90,20 @@ void add_times(RunResult& result, const Scene& scene, const Simulation& simulati
   add(result, "cpu_seconds", median(processor));
 }
 
+void add_error(RunResult& result, const Study& study, const StudyRun& run, const Simulation& simulation,
+               const StepChoice& choice) {
+  std::vector<Override> changes = overrides_of(study, run);
+  const ReferenceSpec& spec = study.measures.error;
+  changes.insert(changes.end(), spec.changes.begin(), spec.changes.end());
+  const Scene scene = read_scene(study.scene, changes);
+  const Simulation reference(scene);
+  const ReferenceError error = reference_error(simulation, choice, reference, spec.until);
+  add(result, "error", error.rms);
+  add(result, "error_worst", error.worst);
+  add(result, "energy", error.energy);
+  add(result, "reference_energy", error.reference_energy);
+}
+
 void render_run(const Study& study, const StudyRun& run, const Scene& scene, const Simulation& simulation,
                 const StepChoice& choice, const std::filesystem::path& folder, Progress& progress) {
   RenderOptions options;
@@ -106,8 +121,10 @@ std::string run_hash(const Study& study, const Scene& scene) {
   Hash hash;
   hash.add(version());
   hash.add(scene.hash);
-  hash.add(fmt::format("render {} measured {} repeats {}", study.measures.render, study.measures.measured,
-                       study.measures.repeats));
+  const Measures& measures = study.measures;
+  hash.add(fmt::format("render {} measured {} repeats {} error {}", measures.render, measures.measured,
+                       measures.repeats, measures.error.until));
+  for (const Override& change : measures.error.changes) hash.add(change.path + "=" + change.value);
   return hash.hex();
 }
 
@@ -130,13 +147,14 @@ RunResult perform_run(const Study& study, const StudyRun& run, const std::filesy
   const Simulation simulation(scene);
   progress.phase("limit");
   // A scheme that grows at every step has limits to report, but no step to run with.
-  const bool steps = study.measures.render || study.measures.repeats > 0;
+  const bool steps = study.measures.render || study.measures.repeats > 0 || study.measures.error.until > 0.0;
   const StepChoice choice = steps ? simulation.choose_step() : simulation.find_limits();
   add_limits(result, scene, simulation, choice);
   progress.phase("measuring");
   try {
     if (study.measures.measured) add_measured(result, scene, simulation, choice);
     if (study.measures.repeats > 0) add_times(result, scene, simulation, choice, study.measures.repeats);
+    if (study.measures.error.until > 0.0) add_error(result, study, run, simulation, choice);
     if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, progress);
   } catch (const DivergenceError& error) {
     result.status = RunStatus::diverged;
