@@ -56,6 +56,9 @@ std::vector<Case> cases() {
             {fmt::format("FB Euler, {} filter, {} x{}", target, form, passes),
              {{"solver.filter", fmt::format("{{kernel: exponential, lambda: 1, form: {}, target: {}, passes: {}}}",
                                             form, target, passes)}}});
+  for (const int ratio : {3, 6, 10})
+    list.push_back({fmt::format("FB Euler, levels x{}", ratio),
+                    {{"solver.filter", fmt::format("{{kernel: levels, ratio: {}}}", ratio)}}});
   for (const char* method : {"backward_euler", "imex"})
     list.push_back({fmt::format("{} at 0.01 s", method == std::string("imex") ? "IMEX" : "backward Euler"),
                     {{"solver.filter", "none"}, {"solver.method", method}, {"solver.step", "0.01"}}});

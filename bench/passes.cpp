@@ -53,6 +53,17 @@ struct Prepared {
   sim::Filter filter;
 };
 
+const sim::FilterOptions levels_options{
+    .kernel = sim::FilterKernel::levels, .target = sim::FilterTarget::force, .ratio = 6.0};
+
+// Shares are sought once for every cloth, which takes longer than a benchmark of it.
+const sim::Filter& levels_of(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<const sim::Filter>> made;
+  std::unique_ptr<const sim::Filter>& entry = made[name];
+  if (!entry) entry = std::make_unique<const sim::Filter>(cloth(name), levels_options);
+  return *entry;
+}
+
 const Prepared& prepared(const std::string& name) {
   static std::map<std::string, std::unique_ptr<const Prepared>> made;
   std::unique_ptr<const Prepared>& entry = made[name];
@@ -76,6 +87,14 @@ void filter_pass(benchmark::State& run, const std::string& name, int threads) {
   sim::State state = stretched(on.structure);
   sim::FilterScratch scratch;
   measure(run, on.structure, threads, [&] { on.filter.apply(state.position, 0.0, state.velocity, scratch); });
+}
+
+void levels_pass(benchmark::State& run, const std::string& name, int threads) {
+  const Prepared& on = prepared(name);
+  const sim::Filter& levels = levels_of(name);
+  sim::State state = stretched(on.structure);
+  sim::FilterScratch scratch;
+  measure(run, on.structure, threads, [&] { levels.apply(state.position, 0.0, state.velocity, scratch); });
 }
 
 void filtered_step(benchmark::State& run, const std::string& name, int threads) {
@@ -131,6 +150,7 @@ Targets add_passes() {
       add("filter", name, threads, filter_pass);
       add("step", name, threads, filtered_step);
       add("CG", name, threads, cg_iteration);
+      if (name != "grid 1000") add("levels", name, threads, levels_pass);
       const bool large = name == "grid 300" || name == "grid 1000";
       if (threads == 2)
         targets.push_back({fmt::format("step on {}: 2 threads against 1", name), pass_name("step", name, 1),
@@ -141,6 +161,10 @@ Targets add_passes() {
     targets.push_back({fmt::format("force pass, {}, against the ceiling", name), force(name), ceiling_name, 2.5});
   targets.push_back(
       {"filter pass against force pass, grid 100", pass_name("filter", "grid 100", 1), force("grid 100"), 0.4});
+  for (const auto& [name, limit] :
+       {std::pair("grid 100", 0.7), {"grid 300", 0.7}, {"irregular 0", 0.9}, {"irregular 1", 0.9}})
+    targets.push_back(
+        {fmt::format("levels against force pass, {}", name), pass_name("levels", name, 1), force(name), limit});
   targets.push_back(
       {"whole step against force pass, grid 100", pass_name("step", "grid 100", 1), force("grid 100"), 1.7});
   targets.push_back({"force pass, grid 1000 against grid 100", force("grid 1000"), force("grid 100"), 3.0});

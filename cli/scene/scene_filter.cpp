@@ -16,8 +16,8 @@ namespace {
 
 constexpr double wanted_step = 0.01;      // [s] the paper's for implicit schemes, which a film's frames need
 constexpr double most_chosen = 10.0;      // ratio, where the scene gives no step (docs/method.md, "Levels")
-constexpr int most_corrections = 6;       // of a ratio, where damping takes part of what it wins
-constexpr double ratio_tolerance = 1e-3;  // relative
+constexpr int most_corrections = 6;       // of a ratio, as damping is filtered too
+constexpr double ratio_tolerance = 3e-3;  // relative
 
 Eigen::VectorXd lambda_at_particles(const Scene& scene, const sim::Structure& structure) {
   Eigen::VectorXd lambda(structure.particles());
@@ -76,14 +76,16 @@ std::optional<sim::Filter> weakest_levels(const SolverSpec& solver, const LevelL
                                  sim::name(solver.method)));
   double ratio = wanted / unfiltered;
   if (!given) ratio = std::min(ratio, most_chosen);
-  std::optional<sim::Filter> filter(limits.with_ratio(ratio));
-  if (!given) return filter;
+  if (!given) return limits.with_ratio(ratio);
+  std::optional<sim::Filter> weakest;
   for (int k = 0; k < most_corrections; ++k) {
-    const double limit = limits.limit(&*filter);
-    if (limit >= wanted * (1.0 - ratio_tolerance)) return filter;
-    ratio *= wanted / limit * (1.0 + ratio_tolerance);
-    filter.emplace(limits.with_ratio(ratio));
+    sim::Filter filter = limits.with_ratio(ratio);
+    const double limit = limits.limit(&filter);
+    if (limit >= wanted && (!weakest || ratio < weakest->options().ratio)) weakest.emplace(std::move(filter));
+    if (limit >= wanted && limit <= wanted * (1.0 + 2.0 * ratio_tolerance)) break;
+    ratio = std::max(1.0, ratio * wanted / limit * (1.0 + ratio_tolerance));
   }
+  if (weakest) return weakest;
   throw InputError(
       fmt::format("no levels allow a step of {:.4g} s, as damping or friction bounds it too; take a smaller one, or "
                   "'step: auto'",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "sim/filter/level_shares.h"
 #include "sim/pass/level_pass.h"
@@ -49,6 +50,8 @@ Eigen::VectorXd inverse_or_0(const Eigen::VectorXd& values) {
 }  // namespace
 
 void LevelSum::set_shares(LevelShares shares) {
+  if (shares.gamma.empty() || static_cast<int>(shares.gamma.size()) > levels())
+    throw InputError("a filter's level shares need a gamma for the particles, and none for levels that are not there");
   shares_ = std::move(shares);
   factor_.clear();
   for (std::size_t l = 1; l < shares_.gamma.size(); ++l)
@@ -169,10 +172,13 @@ void LevelSum::add_to(std::vector<Eigen::Triplet<double>>& entries) const {
 
 LevelFilter::LevelFilter(const Structure& structure, const FilterOptions& options) : particles_(structure.particles()) {
   for (const Body& body : structure.body) body_.emplace_back(structure, body);
-  if (options.level_shares.empty())
+  if (options.level_shares.empty()) {
     find_level_shares(structure, options.ratio, body_);
-  else
-    for (std::size_t b = 0; b < body_.size(); ++b) body_[b].set_shares(options.level_shares[b]);
+    return;
+  }
+  if (options.level_shares.size() != body_.size())
+    throw InputError("a filter's level shares need an entry for every body");
+  for (std::size_t b = 0; b < body_.size(); ++b) body_[b].set_shares(options.level_shares[b]);
 }
 
 std::vector<LevelShares> LevelFilter::shares() const {

@@ -31,7 +31,7 @@ class LevelSum {
   void add_to(std::vector<Eigen::Triplet<double>>& entries) const;
 
  private:
-  const Level& level(std::size_t number) const { return hierarchy_.level[number - 1]; }
+  const NodeLevel& level(std::size_t number) const { return hierarchy_.level[number - 1]; }
   void restrict_particles(const FilterColumns& columns, FilterScratch& scratch) const;
   void put_particles(const FilterColumns& columns, FilterScratch& scratch) const;
   void pass_through(const FilterColumns& columns) const;
@@ -48,7 +48,8 @@ class LevelSum {
 
 class LevelFilter : public FilterOperator {
  public:
-  /// Finds the shares where the options have none. Throws InputError as find_level_shares does.
+  /// Finds the shares where the options have none. Throws InputError as find_level_shares does, or on shares of other
+  /// bodies and levels than there are.
   LevelFilter(const Structure& structure, const FilterOptions& options);
 
   /// Of every body.

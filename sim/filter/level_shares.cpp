@@ -18,6 +18,7 @@ namespace {
 using Laplacian = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr double eigenvalue_tolerance = 2e-3;  // of their error bounds; they count with it
+constexpr double least_share = 1e-9;           // of the last level: else it is not needed
 constexpr double share_tolerance = 3e-3;       // R may be missed by so much, from below
 constexpr double reserve = 0.9;                // of R, that the last level stays below
 
@@ -96,6 +97,21 @@ LevelShares shares_at(double a, double most, const std::vector<double>& rho, dou
   return shares;
 }
 
+// Where the finer levels alone are more than enough: as much of no filter as is allowed, the last one left out.
+LevelShares nearer_to_none(BodySpectrum& spectrum, double most, LevelShares shares) {
+  shares.gamma.pop_back();
+  shares.correction = 0.0;
+  const auto mixed = [&](double none) {
+    LevelShares result = shares;
+    for (double& gamma : result.gamma) gamma *= 1.0 - none;
+    result.gamma[0] += none;
+    return result;
+  };
+  const double none = largest_below(most, spectrum.filtered(shares), 1.0, share_tolerance,
+                                    [&](double share) { return spectrum.filtered(mixed(share)); });
+  return mixed(none);
+}
+
 LevelShares weakest_shares(BodySpectrum& spectrum, double most, const std::vector<double>& rho) {
   const std::size_t last = rho.size() - 1;
   const double correction = largest_correction(spectrum, reserve * most, rho[last], last);
@@ -104,7 +120,8 @@ LevelShares weakest_shares(BodySpectrum& spectrum, double most, const std::vecto
   const double a = largest_below(most, reserve * most, 1.0 / total, share_tolerance, [&](double tried) {
     return spectrum.filtered(shares_at(tried, most, rho, correction));
   });
-  return shares_at(a, most, rho, correction);
+  const LevelShares shares = shares_at(a, most, rho, correction);
+  return shares.gamma.back() < least_share ? nearer_to_none(spectrum, most, shares) : shares;
 }
 
 void find_for_body(BodySpectrum& spectrum, const Body& body, double most, LevelSum& sum) {
@@ -112,7 +129,8 @@ void find_for_body(BodySpectrum& spectrum, const Body& body, double most, LevelS
   while (rho.back() >= reserve * most) {
     if (rho.size() == 1 && rho.back() <= most * (1.0 + eigenvalue_tolerance)) break;
     if (static_cast<int>(rho.size()) == sum.levels())
-      throw InputError(fmt::format("no level of '{}' allows so large a step; use a smaller ratio", body.name));
+      throw InputError(
+          fmt::format("no level of '{}' allows a step so many times as long; use a smaller ratio or step", body.name));
     rho.push_back(spectrum.filtered(only(rho.size())));
   }
   sum.set_shares(rho.size() == 1 ? only(0) : weakest_shares(spectrum, most, rho));

@@ -13,8 +13,9 @@ namespace billow::sim {
 /// spring's law: a step `ratio` times the unfiltered one is stable then, whatever the shape. A body that is soft enough
 /// as it is is not filtered.
 ///
-/// Let rho_l = lambda_max(Q_l M^-1 L). The last level that takes part is the first with rho < 0.8 R; of the levels
-/// before it gamma_l = a R / rho_l, the last gets the rest, and a is as large as R allows.
+/// Let rho_l = lambda_max(Q_l M^-1 L). The last level that takes part is the first with rho < 0.9 R; of the levels
+/// before it gamma_l = a R / rho_l, the last gets the rest, and a is as large as R allows. Where
+/// that leaves nothing to the last, F is mixed with the identity instead.
 ///
 /// Throws InputError on a ratio below 1, or one that the coarsest level of a body does not reach.
 void find_level_shares(const Structure& structure, double ratio, std::vector<LevelSum>& bodies);

@@ -54,7 +54,7 @@ Eigen::VectorXd product(const SparseRows& rows, const Eigen::VectorXd& x) {
 }
 
 void add_level(LevelHierarchy& levels, const Eigen::VectorXd& finer_mass, SparseRows interpolation, int nodes) {
-  Level level;
+  NodeLevel level;
   level.restriction = transposed(interpolation, nodes);
   level.interpolation = std::move(interpolation);
   level.mass = product(level.restriction, finer_mass);

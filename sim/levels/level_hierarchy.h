@@ -36,7 +36,7 @@ struct GridInterpolation {
 };
 
 /// One level: its nodes, and how the next finer level's nodes (the body's particles, for the first level) follow them.
-struct Level {
+struct NodeLevel {
   SparseRows interpolation;               // S: a row for each finer node, >= 0, of sum 1; none for a pinned particle
   SparseRows restriction;                 // its transpose: a row for each node of this level
   std::optional<GridInterpolation> grid;  // the same, on the first level of a grid
@@ -47,7 +47,7 @@ struct Level {
 /// Finest first; empty for a body of one particle. No node stands for particles of two parts that no spring joins.
 /// Where every node of a part stands for the whole of it, it stays as it is up to the last level.
 struct LevelHierarchy {
-  std::vector<Level> level;
+  std::vector<NodeLevel> level;
 };
 
 /// Of one body of `structure`. Particles that springs join row by row, such as a grid's, get bilinear interpolation
