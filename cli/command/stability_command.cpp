@@ -137,6 +137,11 @@ Subject make_subject(const Scene& scene, const Simulation& simulation, double ti
   return subject;
 }
 
+// "levels", or what the paper's filter acts on.
+std::string_view filter_name(const sim::Filter& filter) {
+  return filter.options().kernel == sim::FilterKernel::levels ? "levels" : sim::name(filter.options().target);
+}
+
 Json as_json(const Limit& limit) { return limit.step ? Json(*limit.step) : Json(); }
 
 Json as_json(const Subject& subject, const std::vector<Row>& rows) {
@@ -147,6 +152,7 @@ Json as_json(const Subject& subject, const std::vector<Row>& rows) {
   json["limits"] = Json::array();
   for (const Row& row : rows) {
     Json entry = {{"method", sim::name(row.method)}, {"filtered", row.filtered}};
+    entry["kernel"] = row.filtered ? Json(word_of(subject.filter->options().kernel)) : Json();
     entry["target"] = row.filtered ? Json(sim::name(subject.filter->options().target)) : Json();
     entry["paper"] = as_json(row.paper);
     entry["certified"] = as_json(row.certified);
@@ -169,13 +175,13 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
              subject.k0.converged ? "" : ", NOT converged");
   if (subject.filtered)
     fmt::print("Algorithm 1: {:.6g} /s² with the scene's {} filter ({} iterations{})\n", subject.filtered->value,
-               sim::name(subject.filter->options().target), subject.filtered->iterations,
+               filter_name(*subject.filter), subject.filtered->iterations,
                subject.filtered->converged ? "" : ", NOT converged");
   fmt::print("\nlargest stable step [ms] at t = {:g} s\n{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}\n", subject.state.time,
              "method", "filter", "paper", "certified", "any shape", has_measured ? "measured" : "");
   for (const Row& row : rows)
     fmt::print("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}\n", sim::name(row.method),
-               row.filtered ? sim::name(subject.filter->options().target) : "-", shown(row.paper), shown(row.certified),
+               row.filtered ? filter_name(*subject.filter) : "-", shown(row.paper), shown(row.certified),
                shown(row.any_shape), shown(row.measured));
   fmt::print(
       "\npaper: equation 11 and Algorithm 1. certified: no growth of the linearised step at this state. any shape: "
