@@ -14,7 +14,7 @@ namespace billow::cli {
 /// are to choose their own ratio and none is needed:
 ///
 /// With a given step the weakest levels whose limit for any shape times `safety` is that step. Otherwise those for
-/// steps of the paper's 0.01 s, but of no more than ten times the unfiltered step, beyond which levels slow what one
+/// steps of 0.008 s, but of no more than ten times the unfiltered step, beyond which levels slow what one
 /// sees.
 ///
 /// `structure` must outlive the filter. Throws InputError, located in the scene, also where no levels allow the step.
