@@ -36,10 +36,14 @@ filters velocity -D solver.filter.target=velocity
 cp "$work/film/velocity_strip.png" docs/images/drape_strip.png
 # The paper's figures, for docs/figures.md.
 mkdir -p docs/images/figures
-for figure in 4 5 6 8 9; do ./billow study "scenes/studies/figure-$figure.yaml" -o "$work/figure-$figure"; done
+for study in figure-4 figure-5 figure-6 figure-8 figure-9 work-against-error levels; do
+  ./billow study "scenes/studies/$study.yaml" -o "$work/$study"
+done
+./billow filter scenes/drape.yaml -D solver.filter=none -o "$work/filter"
 for picture in figure-4/figure-4 figure-5/figure-5 figure-5/energy-by-frequency figure-6/figure-6 \
   figure-6/velocity-symmetric figure-6/velocity-plain figure-6/force-conserving figure-8/figure-8-particles \
-  figure-8/figure-8-stiffness figure-9/figure-9; do
+  figure-8/figure-8-stiffness figure-8/figure-8-error figure-9/figure-9 work-against-error/work-1e6 \
+  work-against-error/work-1e8 work-against-error/work-1e9 levels/levels filter/response; do
   cp "$work/$picture.png" docs/images/figures/
 done
 one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.5, 3.4], look_at: [0, -0.3, 0.1], fov: 26}'
