@@ -66,6 +66,19 @@ class LevelLimits {
   sim::StiffnessMatrix least_damping_;
 };
 
+// Levels for `ratio`, or for as much of it as a body of few particles has levels for.
+std::optional<sim::Filter> strongest_levels(const LevelLimits& limits, double ratio) {
+  constexpr double retreat = 0.85;
+  for (; ratio > 1.0; ratio *= retreat) {
+    try {
+      return limits.with_ratio(ratio);
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<sim::Filter> weakest_levels(const SolverSpec& solver, const LevelLimits& limits) {
   const bool given = solver.step_rule == StepRule::fixed;
   const double wanted = (given ? solver.step : wanted_step) / solver.safety;
@@ -75,8 +88,7 @@ std::optional<sim::Filter> weakest_levels(const SolverSpec& solver, const LevelL
     throw InputError(fmt::format("{} grows at every step here, which no levels change; use another method",
                                  sim::name(solver.method)));
   double ratio = wanted / unfiltered;
-  if (!given) ratio = std::min(ratio, most_chosen);
-  if (!given) return limits.with_ratio(ratio);
+  if (!given) return strongest_levels(limits, std::min(ratio, most_chosen));
   std::optional<sim::Filter> weakest;
   for (int k = 0; k < most_corrections; ++k) {
     sim::Filter filter = limits.with_ratio(ratio);

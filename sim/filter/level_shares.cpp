@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "base/error.h"
 #include "sim/filter/spring_bound.h"
@@ -124,13 +125,18 @@ LevelShares weakest_shares(BodySpectrum& spectrum, double most, const std::vecto
   return shares.gamma.back() < least_share ? nearer_to_none(spectrum, most, shares) : shares;
 }
 
-void find_for_body(BodySpectrum& spectrum, const Body& body, double most, LevelSum& sum) {
+std::string too_much(const Body& body, double most, double ratio, double least_rho) {
+  const double reached = std::floor(100.0 * ratio * std::sqrt(reserve * most / least_rho)) / 100.0;
+  return fmt::format("levels of '{}' allow at most {:.2f} times the unfiltered step; use a smaller ratio or step",
+                     body.name, reached);
+}
+
+void find_for_body(BodySpectrum& spectrum, const Body& body, double most, double ratio, LevelSum& sum) {
   std::vector<double> rho{spectrum.unfiltered()};
   while (rho.back() >= reserve * most) {
     if (rho.size() == 1 && rho.back() <= most * (1.0 + eigenvalue_tolerance)) break;
     if (static_cast<int>(rho.size()) == sum.levels())
-      throw InputError(
-          fmt::format("no level of '{}' allows a step so many times as long; use a smaller ratio or step", body.name));
+      throw InputError(too_much(body, most, ratio, *std::min_element(rho.begin(), rho.end())));
     rho.push_back(spectrum.filtered(only(rho.size())));
   }
   sum.set_shares(rho.size() == 1 ? only(0) : weakest_shares(spectrum, most, rho));
@@ -148,7 +154,7 @@ void find_level_shares(const Structure& structure, double ratio, std::vector<Lev
     largest = std::max(largest, spectrum.back().unfiltered());
   }
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    find_for_body(spectrum[b], structure.body[b], largest / (ratio * ratio), bodies[b]);
+    find_for_body(spectrum[b], structure.body[b], largest / (ratio * ratio), ratio, bodies[b]);
 }
 
 }  // namespace billow::sim
