@@ -61,12 +61,14 @@ std::optional<GridShape> grid_shape(const Structure& structure, const Body& body
   return GridShape{body.particles / columns, columns};
 }
 
-GridInterpolation bilinear_interpolation(GridShape& shape) {
-  const GridShape coarse =
-      shape.rows <= 2 && shape.columns <= 2 ? GridShape{1, 1} : GridShape{halved(shape.rows), halved(shape.columns)};
-  GridInterpolation grid{between(shape.columns, coarse.columns), between(shape.rows, coarse.rows), {}};
-  grid.pinned.assign(static_cast<std::size_t>(shape.rows), 0);
-  shape = coarse;
+GridShape coarser(const GridShape& shape) {
+  if (shape.rows <= 2 && shape.columns <= 2) return {1, 1};
+  return {halved(shape.rows), halved(shape.columns)};
+}
+
+GridInterpolation bilinear_interpolation(const GridShape& fine, const GridShape& coarse) {
+  GridInterpolation grid{between(fine.columns, coarse.columns), between(fine.rows, coarse.rows), {}};
+  grid.pinned.assign(static_cast<std::size_t>(fine.rows), 0);
   return grid;
 }
 

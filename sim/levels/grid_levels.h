@@ -15,9 +15,12 @@ struct GridShape {
 /// Nothing where the structural springs are not those of a whole grid, numbered row by row.
 std::optional<GridShape> grid_shape(const Structure& structure, const Body& body);
 
-/// From a grid with about half as many rows and columns, whose border it shares, so that fields that are linear along
-/// rows and columns are interpolated as they are. `shape` becomes the coarser one's. No row is said to be pinned.
-GridInterpolation bilinear_interpolation(GridShape& shape);
+/// With about half as many rows and columns.
+GridShape coarser(const GridShape& shape);
+
+/// From a coarser grid, whose border it shares, so that fields that are linear along rows and columns are interpolated
+/// as they are. No row is said to be pinned.
+GridInterpolation bilinear_interpolation(const GridShape& fine, const GridShape& coarse);
 
 /// S of it, a row for each finer place.
 SparseRows rows_of(const GridInterpolation& grid);

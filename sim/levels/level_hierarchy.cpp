@@ -2,6 +2,7 @@
 #include "sim/levels/level_hierarchy.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/levels/aggregation.h"
 #include "sim/levels/grid_levels.h"
@@ -69,25 +70,37 @@ void mark_pinned_rows(GridInterpolation& grid, const std::vector<bool>& present)
 void add_grid_levels(LevelHierarchy& levels, GridShape shape, const Eigen::VectorXd& mass,
                      const std::vector<bool>& present) {
   while (shape.rows * shape.columns > 1) {
-    GridInterpolation grid = bilinear_interpolation(shape);
+    const GridShape coarse = coarser(shape);
+    GridInterpolation grid = bilinear_interpolation(shape, coarse);
     SparseRows rows = rows_of(grid);
     const bool first = levels.level.empty();
     if (first) rows = without_rows(rows, present), mark_pinned_rows(grid, present);
-    add_level(levels, first ? mass : levels.level.back().mass, std::move(rows), shape.rows * shape.columns);
+    add_level(levels, first ? mass : levels.level.back().mass, std::move(rows), coarse.rows * coarse.columns);
     if (first) levels.level.back().grid = std::move(grid);
+    shape = coarse;
   }
+}
+
+std::vector<bool> free_particles(const Structure& structure, const Body& body) {
+  std::vector<bool> present;
+  for (int i = 0; i < body.particles; ++i) present.push_back(!structure.pinned(body.first_particle + i));
+  return present;
+}
+
+// Of a body's particles, 0 where pinned.
+Eigen::VectorXd free_masses(const Structure& structure, const Body& body) {
+  Eigen::VectorXd mass = structure.mass.segment(body.first_particle, body.particles);
+  for (int i = 0; i < body.particles; ++i)
+    if (structure.pinned(body.first_particle + i)) mass(i) = 0.0;
+  return mass;
 }
 
 }  // namespace
 
 LevelHierarchy build_levels(const Structure& structure, const Body& body) {
   LevelHierarchy levels;
-  std::vector<bool> present;
-  Eigen::VectorXd mass = structure.mass.segment(body.first_particle, body.particles);
-  for (int i = 0; i < body.particles; ++i) {
-    present.push_back(!structure.pinned(body.first_particle + i));
-    if (!present.back()) mass(i) = 0.0;
-  }
+  std::vector<bool> present = free_particles(structure, body);
+  Eigen::VectorXd mass = free_masses(structure, body);
   if (const std::optional<GridShape> shape = grid_shape(structure, body)) {
     add_grid_levels(levels, *shape, mass, present);
     return levels;
@@ -103,6 +116,86 @@ LevelHierarchy build_levels(const Structure& structure, const Body& body) {
     present.assign(graph.size(), true);
   }
   return levels;
+}
+
+namespace {
+
+constexpr std::size_t most_followed = 4;  // [node] as many as bilinear interpolation takes
+
+using Weights = std::vector<std::pair<int, double>>;  // columns, ascending, and what they weigh
+
+// The heaviest, made to sum to 1 again, so that what is the same everywhere stays so.
+void keep_heaviest(Weights& row) {
+  if (row.size() <= most_followed) return;
+  std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  row.resize(most_followed);
+  std::sort(row.begin(), row.end());
+  double sum = 0.0;
+  for (const auto& [column, weight] : row) sum += weight;
+  for (auto& [column, weight] : row) weight /= sum;
+}
+
+Weights product_row(const SparseRows& left, const SparseRows& right, int r, std::vector<double>& sum) {
+  Weights row;
+  const auto each = [](const SparseRows& rows, int k, const auto& visit) {
+    for (int e = rows.first[static_cast<std::size_t>(k)]; e < rows.first[static_cast<std::size_t>(k) + 1]; ++e)
+      visit(rows.column[static_cast<std::size_t>(e)], rows.weight[static_cast<std::size_t>(e)]);
+  };
+  each(left, r, [&](int k, double by) {
+    each(right, k, [&](int c, double weight) {
+      if (sum[static_cast<std::size_t>(c)] == 0.0) row.emplace_back(c, 0.0);
+      sum[static_cast<std::size_t>(c)] += by * weight;
+    });
+  });
+  std::sort(row.begin(), row.end());
+  for (auto& [column, weight] : row) weight = std::exchange(sum[static_cast<std::size_t>(column)], 0.0);
+  return row;
+}
+
+SparseRows short_product(const SparseRows& left, const SparseRows& right, int columns) {
+  SparseRows result;
+  std::vector<double> sum(static_cast<std::size_t>(columns), 0.0);
+  for (int r = 0; r < left.rows(); ++r) {
+    Weights row = product_row(left, right, r, sum);
+    keep_heaviest(row);
+    for (const auto& [column, weight] : row) result.column.push_back(column), result.weight.push_back(weight);
+    result.first.push_back(static_cast<int>(result.column.size()));
+  }
+  return result;
+}
+
+NodeLevel level_of(SparseRows interpolation, int nodes, const Eigen::VectorXd& mass) {
+  LevelHierarchy one;
+  add_level(one, mass, std::move(interpolation), nodes);
+  return std::move(one.level.front());
+}
+
+NodeLevel coarse_grid(const Structure& structure, const Body& body, const GridShape& shape, const GridShape& coarse) {
+  const std::vector<bool> present = free_particles(structure, body);
+  GridInterpolation grid = bilinear_interpolation(shape, coarse);
+  NodeLevel level =
+      level_of(without_rows(rows_of(grid), present), coarse.rows * coarse.columns, free_masses(structure, body));
+  mark_pinned_rows(grid, present);
+  level.grid = std::move(grid);
+  return level;
+}
+
+}  // namespace
+
+// A grid's own interpolation is smoother than the product of those between its levels, and shorter.
+std::optional<NodeLevel> build_coarse_level(const Structure& structure, const Body& body, int most_nodes) {
+  if (most_nodes < 1 || body.particles < 2) return std::nullopt;
+  if (const std::optional<GridShape> shape = grid_shape(structure, body)) {
+    GridShape coarse = coarser(*shape);
+    while (coarse.rows * coarse.columns > most_nodes) coarse = coarser(coarse);
+    return coarse_grid(structure, body, *shape, coarse);
+  }
+  SparseRows product;
+  for (const NodeLevel& level : build_levels(structure, body).level) {
+    product = product.rows() == 0 ? level.interpolation : short_product(product, level.interpolation, level.nodes());
+    if (level.nodes() <= most_nodes) return level_of(std::move(product), level.nodes(), free_masses(structure, body));
+  }
+  return std::nullopt;
 }
 
 }  // namespace billow::sim

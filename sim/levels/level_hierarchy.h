@@ -55,4 +55,8 @@ struct LevelHierarchy {
 /// neighbours' mean (smoothed aggregation: Vanek, Mandel & Brezina 1996).
 LevelHierarchy build_levels(const Structure& structure, const Body& body);
 
+/// One level alone: the finest of at most `most_nodes`, interpolated straight to the particles, each of which follows
+/// no more than four nodes. Nothing where the body has no such level.
+std::optional<NodeLevel> build_coarse_level(const Structure& structure, const Body& body, int most_nodes);
+
 }  // namespace billow::sim

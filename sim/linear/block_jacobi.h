@@ -1,4 +1,4 @@
-// The preconditioner of the implicit schemes.
+// The preconditioner of backward Euler, or the finer half of it.
 #pragma once
 
 #include <Eigen/Core>

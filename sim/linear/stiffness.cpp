@@ -90,10 +90,6 @@ void StiffnessMatrix::diagonal_blocks(Eigen::MatrixX3d& straight, Eigen::MatrixX
 
 namespace {
 
-Eigen::Matrix3d spring_block(const Eigen::Vector3d& direction, double isotropic, double along) {
-  return isotropic * Eigen::Matrix3d::Identity() + along * direction * direction.transpose();
-}
-
 Eigen::Matrix3d symmetric(const Eigen::RowVector3d& straight, const Eigen::RowVector3d& mixed) {
   Eigen::Matrix3d matrix = straight.asDiagonal();
   matrix(0, 1) = matrix(1, 0) = mixed(0);
@@ -103,6 +99,12 @@ Eigen::Matrix3d symmetric(const Eigen::RowVector3d& straight, const Eigen::RowVe
 }
 
 }  // namespace
+
+Eigen::Matrix3d StiffnessMatrix::spring_block(int spring) const {
+  const int k = plan_->slot[spring];
+  const Eigen::Vector3d direction = direction_.row(k);
+  return isotropic_(k) * Eigen::Matrix3d::Identity() + along_(k) * direction * direction.transpose();
+}
 
 // What springs and diagonal come to at (i, i) is put at once; the diagonal blocks' share of it is added like all
 // others.
@@ -120,9 +122,9 @@ Eigen::SparseMatrix<double> StiffnessMatrix::assemble(bool eliminate_pins) const
   for (int i = 0; i < n; ++i)
     add(i, i, eliminated(i) ? Eigen::Matrix3d::Identity().eval() : symmetric(straight.row(i), mixed.row(i)));
   for (int s = 0; s < structure_.springs(); ++s) {
-    const int i = structure_.spring(s, 0), j = structure_.spring(s, 1), k = plan_->slot[s];
+    const int i = structure_.spring(s, 0), j = structure_.spring(s, 1);
     if (eliminated(i) || eliminated(j)) continue;
-    const Eigen::Matrix3d b = -spring_block(direction_.row(k), isotropic_(k), along_(k));
+    const Eigen::Matrix3d b = -spring_block(s);
     add(i, j, b);
     add(j, i, b);
   }

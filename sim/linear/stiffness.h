@@ -44,6 +44,16 @@ class StiffnessMatrix {
   /// The symmetric parts of the 3 x 3 blocks of the diagonal, a row for each particle: xx, yy, zz in `straight` (n x 3)
   /// and xy, xz, yz in `mixed` (n x 3).
   void diagonal_blocks(Eigen::MatrixX3d& straight, Eigen::MatrixX3d& mixed) const;
+  /// B of a spring of the structure.
+  Eigen::Matrix3d spring_block(int spring) const;
+  /// What add_diagonal has added.
+  const Eigen::VectorXd& diagonal() const { return diagonal_; }
+  /// What add_block and add_pair have added, in that order: (i, j) += value.
+  struct Block {
+    int i = 0, j = 0;
+    Eigen::Matrix3d value;
+  };
+  const std::vector<Block>& blocks() const { return block_; }
   /// The same matrix assembled, particle-major (row 3 i + axis); the pattern is the same for every state as long as the
   /// same blocks are added. Rows and columns of pinned particles are replaced by the identity when `eliminate_pins`.
   Eigen::SparseMatrix<double> assemble(bool eliminate_pins) const;
@@ -52,10 +62,6 @@ class StiffnessMatrix {
   Eigen::SparseMatrix<double> assemble_one_axis(bool eliminate_pins) const;
 
  private:
-  struct Block {
-    int i = 0, j = 0;
-    Eigen::Matrix3d value;
-  };
   BlockColumns columns() const;
   void diagonal_without_blocks(Eigen::MatrixX3d& straight, Eigen::MatrixX3d& mixed) const;
 

@@ -3,10 +3,10 @@
 // problem, damps every frequency. K is taken in its definite form.
 #include <optional>
 
-#include "sim/linear/block_jacobi.h"
 #include "sim/linear/sparse_cholesky.h"
 #include "sim/step/implicit_solve.h"
 #include "sim/step/schemes.h"
+#include "sim/step/two_level.h"
 
 namespace billow::sim {
 
@@ -18,16 +18,17 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// M + h C + h^2 K at one state.
 class LinearisedMatrix : public ImplicitMatrix {
  public:
-  explicit LinearisedMatrix(const Structure& structure) : stiffness_(structure), system_(stiffness_) {}
+  explicit LinearisedMatrix(const Structure& structure)
+      : stiffness_(structure), system_(stiffness_), preconditioner_(structure) {}
 
-  // Where nothing but friction damps, C costs nothing.
-  void form(const StepForces& forces, const State& state, double h) {
+  // After a solve that took so many `iterations`. Where nothing but friction damps, C costs nothing.
+  void form(const StepForces& forces, const State& state, double h, long iterations) {
     const Structure& structure = forces.structure();
     forces.linearise(state, 1.0, 0.0, stiffness_);
     forces.linearise(state, 0.0, h, system_);
     system_.add_scaled(stiffness_, h * h);
     for (int i = 0; i < structure.particles(); ++i) system_.add_diagonal(i, structure.mass(i));
-    preconditioner_.set(system_);
+    preconditioner_.set(system_, iterations);
   }
 
   const StiffnessMatrix& stiffness() const { return stiffness_; }
@@ -46,7 +47,7 @@ class LinearisedMatrix : public ImplicitMatrix {
 
  private:
   StiffnessMatrix stiffness_, system_;  // K, and all of it
-  BlockJacobi preconditioner_;
+  mutable TwoLevel preconditioner_;     // its scratch
   SparseCholesky factor_;
 };
 
@@ -59,11 +60,13 @@ class BackwardEuler : public Integrator {
       matrix_.emplace(forces.structure());
       solve_.emplace(forces.structure(), options_, *matrix_);
     }
-    matrix_->form(forces, state, h);
+    matrix_->form(forces, state, h, last_iterations_);
     forces.force(state, b_);
     matrix_->stiffness().multiply(state.velocity, product_);
     b_ = h * (b_ - h * product_);
+    const long before = solve_->counts().iterations;
     solve_->solve(state.velocity, b_, velocity);
+    last_iterations_ = solve_->counts().iterations - before;
     return {.by_new = h};
   }
 
@@ -74,6 +77,7 @@ class BackwardEuler : public Integrator {
   std::optional<LinearisedMatrix> matrix_;
   std::optional<ImplicitSolve> solve_;
   Eigen::MatrixX3d b_, product_;
+  long last_iterations_ = 0;
 };
 
 }  // namespace
