@@ -10,7 +10,7 @@ namespace {
 
 // The coarse matrices bring 132 iterations down to 24, but 10 only to 7, which does not pay for them. So they come in
 // when a solve without them takes many iterations and go when one with them takes few.
-constexpr long many_iterations = 16, few_iterations = 8;
+constexpr long many_iterations = 24, few_iterations = 8;
 
 // [step] The cloth turns away from under them: three times as old they cost half as many iterations again.
 constexpr int most_age = 3;
