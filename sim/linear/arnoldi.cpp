@@ -61,6 +61,10 @@ class KrylovSpace {
 
   int finish(int size, double beyond) {
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(projected_.topLeftCorner(size, size));
+    if (solver.info() != Eigen::Success) {  // the operator gave what is no number
+      modulus_ = residual_ = NAN;
+      return size;
+    }
     Eigen::Index best = 0;
     modulus_ = solver.eigenvalues().cwiseAbs().maxCoeff(&best);
     weight_ = solver.eigenvectors().col(best).normalized();

@@ -126,6 +126,13 @@ TEST(Arnoldi, AgreesWithADenseSolverOnAMatrixThatIsNotSymmetric) {
   }
 }
 
+TEST(Arnoldi, SaysThatTheOperatorGivesNoNumber) {
+  const auto multiply = [](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) { y = NAN * x; };
+  const LargestModulus found = largest_modulus(multiply, Eigen::VectorXd::Ones(9));
+  EXPECT_FALSE(found.converged);
+  EXPECT_TRUE(std::isnan(found.value));
+}
+
 TEST(Arnoldi, LeavesPinnedRowsAlone) {
   const Structure structure = uneven_sheet();
   const StiffnessMatrix stiffness = linearise_at_rest(structure).stiffness;
