@@ -55,6 +55,12 @@ std::vector<Known> known_filters() {
   return list;
 }
 
+void require_waves(const sim::Structure& structure, const sim::Body& body) {
+  if (sim::free_mass(structure, body).sum() == 0.0)
+    throw InputError(fmt::format(
+        "every particle of '{}' is pinned, so that no wave runs in it; choose another with --body", body.name));
+}
+
 std::vector<Response> responses(const Scene& scene, const Simulation& simulation, const sim::Body& body) {
   const sim::Structure& structure = simulation.structure();
   std::vector<Response> list;
@@ -135,6 +141,7 @@ int filter_command(const FilterCommandOptions& options) {
   progress.phase("springs");
   const Simulation simulation(scene);
   const sim::Body& body = chosen_body(simulation.structure(), options.body);
+  require_waves(simulation.structure(), body);
   progress.phase("responses");
   const std::vector<Response> list = responses(scene, simulation, body);
   progress.end();

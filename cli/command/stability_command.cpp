@@ -41,9 +41,9 @@ struct Subject {
   const Simulation& simulation;
   sim::State state;  // that the certificates are about
   sim::Linearisation linearisation, any_shape;
-  sim::StiffnessMatrix least_damping;  // at any shape
-  std::vector<std::string> unbounded;  // laws that no limit counts
-  std::optional<sim::Filter> filter;
+  sim::StiffnessMatrix least_damping;   // at any shape
+  std::vector<std::string> unbounded;   // laws that no limit counts
+  const sim::Filter* filter = nullptr;  // the scene's, or null
   sim::EigenvalueEstimate k0;
   std::optional<sim::EigenvalueEstimate> filtered;
   std::optional<sim::StepSetter> setter;
@@ -70,7 +70,7 @@ Limit certified(const Subject& subject, const Row& row, const sim::Linearisation
                                        .position = subject.state.position,
                                        .method = row.method,
                                        .options = subject.scene.solver.integrator,
-                                       .filter = row.filtered ? &*subject.filter : nullptr,
+                                       .filter = row.filtered ? subject.filter : nullptr,
                                        .duration = subject.scene.duration,
                                        .least_damping = least_damping}));
 }
@@ -126,13 +126,13 @@ Subject make_subject(const Scene& scene, const Simulation& simulation, double ti
       std::move(any_shape.linearisation),
       simulation.forces().least_damping(),
       std::move(any_shape.unbounded),
-      {},
+      nullptr,
       {},
       {},
       sim::find_step_setter(structure, simulation.forces().bound(sim::Shapes::rest).linearisation.stiffness)};
   subject.k0 = sim::max_eigenvalue(structure, subject.linearisation.stiffness);
-  if (!simulation.filter()) return subject;
-  subject.filter.emplace(structure, *simulation.filter());
+  subject.filter = simulation.filter_operator();
+  if (!subject.filter) return subject;
   subject.filtered = sim::filtered_eigenvalue(structure, subject.linearisation.stiffness, *subject.filter);
   return subject;
 }

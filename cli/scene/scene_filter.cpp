@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cli/scene/linearised_scene.h"
 #include "cli/scene/particle_expression.h"
 #include "cli/scene/scene_parts.h"
 #include "sim/limit/certificate.h"
@@ -42,14 +43,8 @@ class LevelLimits {
 
   /// Infinite where there is none.
   double limit(const sim::Filter* filter) const {
-    const sim::CertifiedStep found = sim::certified_step({.structure = structure_,
-                                                          .linearisation = bound_,
-                                                          .position = structure_.rest_position,
-                                                          .method = scene_.solver.method,
-                                                          .options = scene_.solver.integrator,
-                                                          .filter = filter,
-                                                          .duration = scene_.duration,
-                                                          .least_damping = &least_damping_});
+    const sim::CertifiedStep found =
+        sim::certified_step(linearised_step(scene_, structure_, bound_, filter, &least_damping_));
     return found.unlimited ? INFINITY : found.step;
   }
 

@@ -112,10 +112,13 @@ SolverSpec read_solver(MapReader& scene, double duration) {
   solver.integrator.max_iterations = map.integer("max_iterations", solver.integrator.max_iterations);
   read_filter(map, solver);
   // The implicit schemes solve for velocities: there is no single force that a filter could take.
-  if (solver.filter && solver.filter->target == sim::FilterTarget::force && !sim::is_explicit(solver.method))
-    fail_at(map.where("filter"), fmt::format("a force filter needs an explicit method, and {} is implicit; filter the "
-                                             "velocity, or nothing",
-                                             sim::name(solver.method)));
+  if (solver.filter && solver.filter->target == sim::FilterTarget::force && !sim::is_explicit(solver.method)) {
+    const bool levels = solver.filter->kernel == sim::FilterKernel::levels;
+    fail_at(map.where("filter"),
+            fmt::format("{} an explicit method, and {} is implicit; {}",
+                        levels ? "levels need" : "a force filter needs", sim::name(solver.method),
+                        levels ? "use fb_euler, or filter nothing" : "filter the velocity, or nothing"));
+  }
   return solver;
 }
 

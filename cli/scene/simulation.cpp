@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "base/error.h"
+#include "cli/scene/linearised_scene.h"
 #include "cli/scene/scene_filter.h"
 #include "cli/scene/scene_parts.h"
 #include "sim/filter/filter.h"
@@ -82,16 +83,8 @@ std::unique_ptr<sim::WatchedRun> Simulation::make_run(const StepChoice& choice,
 
 sim::CertifiedStep Simulation::certified_limit(const sim::Linearisation& linearisation,
                                                const sim::StiffnessMatrix* least_damping) const {
-  const SolverSpec& solver = scene_.solver;
   return located(scene_.file.string(), [&] {
-    return sim::certified_step({.structure = structure_,
-                                .linearisation = linearisation,
-                                .position = structure_.rest_position,
-                                .method = solver.method,
-                                .options = solver.integrator,
-                                .filter = operator_ ? &*operator_ : nullptr,
-                                .duration = scene_.duration,
-                                .least_damping = least_damping});
+    return sim::certified_step(linearised_step(scene_, structure_, linearisation, filter_operator(), least_damping));
   });
 }
 

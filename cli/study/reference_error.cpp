@@ -23,7 +23,7 @@ ReferenceError reference_error(const Simulation& simulation, const StepChoice& c
                                double until) {
   const int n = simulation.structure().particles();
   if (reference.structure().particles() != n)
-    throw InputError("the reference that errors are measured against has other particles than the run");
+    throw InputError("the reference has other particles than the run; change only what leaves the meshes as they are");
   const auto solver = simulation.make_solver(choice), truth = reference.make_solver(reference.choose_step());
   ReferenceError error;
   double squares = 0.0;

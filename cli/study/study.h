@@ -28,6 +28,7 @@ struct Axis {
 struct ReferenceSpec {
   double until = 0.0;  // [s] 0: nothing is compared
   std::vector<Override> changes;
+  std::string where;  // in the study file, of the changes
 };
 
 /// What every run does.

@@ -103,6 +103,7 @@ Measures read_measures(MapReader& study) {
     MapReader error = map.map("error", keys::error);
     measures.error.until = error.number("until");
     measures.error.changes = read_changes(error.require("set"));
+    measures.error.where = error.where("set");
   }
   return measures;
 }

@@ -16,6 +16,7 @@
 #include "cli/run/render_scene.h"
 #include "cli/run/watched_scene.h"
 #include "cli/scene/hash.h"
+#include "cli/scene/scene_parts.h"
 #include "cli/study/reference_error.h"
 #include "cli/text/command_text.h"
 #include "cli/text/version.h"
@@ -97,7 +98,8 @@ void add_error(RunResult& result, const Study& study, const StudyRun& run, const
   changes.insert(changes.end(), spec.changes.begin(), spec.changes.end());
   const Scene scene = read_scene(study.scene, changes);
   const Simulation reference(scene);
-  const ReferenceError error = reference_error(simulation, choice, reference, spec.until);
+  const ReferenceError error =
+      located(spec.where, [&] { return reference_error(simulation, choice, reference, spec.until); });
   add(result, "error", error.rms);
   add(result, "error_worst", error.worst);
   add(result, "energy", error.energy);

@@ -44,6 +44,16 @@ void append(Structure& whole, const Structure& part, int particles, int springs)
 
 }  // namespace
 
+Eigen::VectorXd free_mass(const Structure& structure) {
+  return structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
+}
+
+Eigen::VectorXd free_mass(const Structure& structure, const Body& body) {
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(structure.particles());
+  mass.segment(body.first_particle, body.particles) = free_mass(structure).segment(body.first_particle, body.particles);
+  return mass;
+}
+
 bool is_damped(const Structure& structure, const Body& body) {
   return (structure.damping.segment(body.first_spring, body.springs).array() > 0.0).any();
 }

@@ -55,6 +55,11 @@ struct Structure {
   bool pinned(int particle) const { return inverse_mass(particle) == 0.0; }
 };
 
+/// Masses (n) [kg], 0 of pinned particles: of the inner product in which stiffness, filters and their limits are seen.
+Eigen::VectorXd free_mass(const Structure& structure);
+/// The same (n), 0 also of all other bodies' particles.
+Eigen::VectorXd free_mass(const Structure& structure, const Body& body);
+
 /// Whether any spring of `body` damps.
 bool is_damped(const Structure& structure, const Body& body);
 

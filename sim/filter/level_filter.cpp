@@ -1,25 +1,20 @@
 // Down to the coarsest level that takes part, and up again.
 #include "sim/filter/level_filter.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "sim/filter/level_shares.h"
-#include "sim/pass/level_pass.h"
+#include "sim/pass/level_transfer.h"
 
 namespace billow::sim {
 
 LevelSum::LevelSum(const Structure& structure, const Body& body)
     : first_particle_(body.first_particle),
       particles_(body.particles),
-      mass_(structure.mass.segment(body.first_particle, body.particles)),
+      mass_(free_mass(structure).segment(body.first_particle, body.particles)),
       hierarchy_(build_levels(structure, body)),
-      shares_{{1.0}, 0.0} {
-  for (int i = 0; i < particles_; ++i)
-    if (structure.pinned(first_particle_ + i)) mass_(i) = 0.0;
-}
+      shares_{{1.0}, 0.0} {}
 
 int LevelSum::nodes(int level) const {
   return level == 0 ? particles_ : hierarchy_.level[static_cast<std::size_t>(level) - 1].nodes();
@@ -67,80 +62,40 @@ void LevelSum::set_shares(LevelShares shares) {
       rows_of((1.0 + shares_.correction) * identity - shares_.correction * Matrix(overlap * inverse.asDiagonal()));
 }
 
-namespace {
-
-template <class Work>
-void for_rows(int rows, const Work& work) {
-  for_each_range(rows, 1, least_part_of_a_pass, [&](int, int begin, int end) { work(begin, end); });
-}
-
-// Rows of a grid, each of `width` particles.
-template <class Work>
-void for_grid_rows(int rows, int width, const Work& work) {
-  for_each_range(rows, 1, std::max(1, least_part_of_a_pass / width), work, width);
-}
-
-}  // namespace
-
 void LevelSum::run(const FilterColumns& columns, FilterScratch& scratch) const {
   const std::size_t top = factor_.size();
   if (top == 0) return pass_through(columns);
   std::vector<AlignedVector<double>>& rows = scratch.level;
   if (rows.size() < top + 2) rows.resize(top + 2);
-  for (std::size_t l = level(1).grid ? 1 : 0; l <= top; ++l)
-    if (const auto size = 4 * static_cast<std::size_t>(nodes(static_cast<int>(l))); rows[l].size() < size)
-      rows[l].resize(size);
-  scratch.pass.prepare();
-  restrict_particles(columns, scratch);
+  for (std::size_t l = 1; l <= top; ++l)
+    if (const auto size = 4 * static_cast<std::size_t>(level(l).nodes()); rows[l].size() < size) rows[l].resize(size);
+  const LevelParticles first{level(1), first_particle_, particles_};
+  particles_to_nodes(first, columns, mass_, rows[0], rows[1].data(), scratch.pass);
   for (std::size_t l = 2; l <= top; ++l)
-    for_rows(level(l).nodes(), [&](int begin, int end) {
+    for_level_rows(level(l).nodes(), [&](int begin, int end) {
       restrict_rows(level(l).restriction, rows[l - 1].data(), rows[l].data(), begin, end);
     });
   if (correction_.rows() > 0) correct(rows);
   for (std::size_t l = top; l >= 1; --l)
-    for_rows(level(l).nodes(), [&](int begin, int end) {
+    for_level_rows(level(l).nodes(), [&](int begin, int end) {
       const double* const coarser = l == top ? nullptr : rows[l + 1].data();
       interpolate_rows(l == top ? level(l).interpolation : level(l + 1).interpolation, coarser, factor_[l - 1].data(),
                        rows[l].data(), begin, end);
     });
-  put_particles(columns, scratch);
-}
-
-void LevelSum::restrict_particles(const FilterColumns& columns, FilterScratch& scratch) const {
-  double *const fine = scratch.level[0].data(), *const coarse = scratch.level[1].data();
-  if (const auto& grid = level(1).grid)
-    return for_grid_rows(grid->down.nodes(), 2 * grid->along.fine(), [&](int part, int begin, int end) {
-      restrict_grid(*grid, columns, first_particle_, mass_.data(), coarse, begin, end, scratch.pass.part(part));
-    });
-  for_rows(particles_,
-           [&](int begin, int end) { put_momenta(columns, first_particle_, mass_.data(), fine, begin, end); });
-  for_rows(level(1).nodes(),
-           [&](int begin, int end) { restrict_rows(level(1).restriction, fine, coarse, begin, end); });
-}
-
-void LevelSum::put_particles(const FilterColumns& columns, FilterScratch& scratch) const {
-  const double* const coarse = scratch.level[1].data();
-  const SparseRows& interpolation = level(1).interpolation;
-  if (const auto& grid = level(1).grid)
-    return for_grid_rows(grid->down.fine(), grid->along.fine(), [&](int part, int begin, int end) {
-      put_interpolated_grid(*grid, interpolation, coarse, shares_.gamma[0], columns, first_particle_, begin, end,
-                            scratch.pass.part(part));
-    });
-  for_rows(particles_, [&](int begin, int end) {
-    put_interpolated(interpolation, coarse, shares_.gamma[0], columns, first_particle_, begin, end);
-  });
+  nodes_to_particles(first, rows[1].data(), shares_.gamma[0], columns, scratch.pass);
 }
 
 void LevelSum::correct(std::vector<AlignedVector<double>>& rows) const {
   const std::size_t top = factor_.size();
   rows[top + 1].resize(rows[top].size());
-  for_rows(correction_.rows(),
-           [&](int begin, int end) { restrict_rows(correction_, rows[top].data(), rows[top + 1].data(), begin, end); });
+  for_level_rows(correction_.rows(), [&](int begin, int end) {
+    restrict_rows(correction_, rows[top].data(), rows[top + 1].data(), begin, end);
+  });
   rows[top].swap(rows[top + 1]);
 }
 
 void LevelSum::pass_through(const FilterColumns& columns) const {
-  for_rows(particles_, [&](int begin, int end) {
+  for_level_rows(particles_, [&](int begin, int end) {
     for (int i = first_particle_ + begin; i < first_particle_ + end; ++i)
       for (int axis = 0; axis < 3; ++axis) columns.put(axis, i, columns.in[axis][i]);
   });

@@ -1,6 +1,7 @@
 // Levels: a filter whose reach, and so whose step, does not depend on how fine the mesh is.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "sim/filter/filter_operator.h"
@@ -32,8 +33,6 @@ class LevelSum {
 
  private:
   const NodeLevel& level(std::size_t number) const { return hierarchy_.level[number - 1]; }
-  void restrict_particles(const FilterColumns& columns, FilterScratch& scratch) const;
-  void put_particles(const FilterColumns& columns, FilterScratch& scratch) const;
   void pass_through(const FilterColumns& columns) const;
   Eigen::SparseMatrix<double, Eigen::RowMajor> interpolation(int level) const;
   void correct(std::vector<AlignedVector<double>>& rows) const;
@@ -46,7 +45,8 @@ class LevelSum {
   SparseRows correction_;                // (1 + c) I - c P^T M P D^-1 of the last; empty: I
 };
 
-class LevelFilter : public FilterOperator {
+/// Lives in a shared pointer, for it is its own adjoint and the same at all times.
+class LevelFilter : public FilterOperator, public std::enable_shared_from_this<LevelFilter> {
  public:
   /// Finds the shares where the options have none. Throws InputError as find_level_shares does, or on shares of other
   /// bodies and levels than there are.
@@ -60,8 +60,8 @@ class LevelFilter : public FilterOperator {
   bool self_adjoint() const override { return true; }
   bool nonnegative() const override { return true; }
   bool constant() const override { return true; }
-  std::shared_ptr<const FilterOperator> frozen(double) const override { return std::make_shared<LevelFilter>(*this); }
-  std::shared_ptr<const FilterOperator> adjoint() const override { return std::make_shared<LevelFilter>(*this); }
+  std::shared_ptr<const FilterOperator> frozen(double) const override { return shared_from_this(); }
+  std::shared_ptr<const FilterOperator> adjoint() const override { return shared_from_this(); }
   std::vector<LevelTable> levels() const override;
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(const Eigen::MatrixX3d& position, double time) const override;
 

@@ -27,11 +27,7 @@ constexpr double reserve = 0.9;                // of R, that the last level stay
 class BodySpectrum {
  public:
   BodySpectrum(const Structure& structure, const Body& body, const Laplacian& laplacian, LevelSum& sum)
-      : structure_(structure), laplacian_(laplacian), sum_(sum) {
-    mass_.setZero(structure.particles());
-    for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
-      if (!structure.pinned(i)) mass_(i) = structure.mass(i);
-  }
+      : structure_(structure), laplacian_(laplacian), sum_(sum), mass_(free_mass(structure, body)) {}
 
   double unfiltered() const { return largest({}); }
   double filtered(LevelShares shares) {

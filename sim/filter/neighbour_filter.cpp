@@ -121,11 +121,8 @@ Eigen::VectorXd NeighbourFilter::largest_exchange(const PlacedWeights& weights) 
   };
   Eigen::VectorXd largest(structure_.body.size());
   for (std::size_t b = 0; b < structure_.body.size(); ++b) {
-    const Body& body = structure_.body[b];
-    Eigen::VectorXd inner_mass = Eigen::VectorXd::Zero(structure_.particles());
-    for (int i = body.first_particle; i < body.first_particle + body.particles; ++i)
-      if (!structure_.pinned(i)) inner_mass(i) = structure_.mass(i);
-    largest(b) = largest_eigenvalue({exchange, {}, inner_mass}, {.tolerance = tolerance, .scale = 1.0}).upper();
+    const Eigen::VectorXd mass = free_mass(structure_, structure_.body[b]);
+    largest(b) = largest_eigenvalue({exchange, {}, mass}, {.tolerance = tolerance, .scale = 1.0}).upper();
   }
   return largest;
 }

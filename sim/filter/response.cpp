@@ -13,10 +13,7 @@ namespace billow::sim {
 namespace {
 
 double inner(const Structure& structure, const Eigen::MatrixX3d& a, const Eigen::MatrixX3d& b) {
-  double sum = 0.0;
-  for (int i = 0; i < structure.particles(); ++i)
-    if (!structure.pinned(i)) sum += structure.mass(i) * a.row(i).dot(b.row(i));
-  return sum;
+  return a.cwiseProduct(b).rowwise().sum().dot(free_mass(structure));
 }
 
 /// How far along its longest extent each particle of a body stands [m].

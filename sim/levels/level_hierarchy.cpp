@@ -54,12 +54,12 @@ Eigen::VectorXd product(const SparseRows& rows, const Eigen::VectorXd& x) {
   return result;
 }
 
-void add_level(LevelHierarchy& levels, const Eigen::VectorXd& finer_mass, SparseRows interpolation, int nodes) {
+NodeLevel level_of(SparseRows interpolation, int nodes, const Eigen::VectorXd& finer_mass) {
   NodeLevel level;
   level.restriction = transposed(interpolation, nodes);
   level.interpolation = std::move(interpolation);
   level.mass = product(level.restriction, finer_mass);
-  levels.level.push_back(std::move(level));
+  return level;
 }
 
 void mark_pinned_rows(GridInterpolation& grid, const std::vector<bool>& present) {
@@ -75,7 +75,8 @@ void add_grid_levels(LevelHierarchy& levels, GridShape shape, const Eigen::Vecto
     SparseRows rows = rows_of(grid);
     const bool first = levels.level.empty();
     if (first) rows = without_rows(rows, present), mark_pinned_rows(grid, present);
-    add_level(levels, first ? mass : levels.level.back().mass, std::move(rows), coarse.rows * coarse.columns);
+    levels.level.push_back(
+        level_of(std::move(rows), coarse.rows * coarse.columns, first ? mass : levels.level.back().mass));
     if (first) levels.level.back().grid = std::move(grid);
     shape = coarse;
   }
@@ -87,12 +88,9 @@ std::vector<bool> free_particles(const Structure& structure, const Body& body) {
   return present;
 }
 
-// Of a body's particles, 0 where pinned.
+// Of a body's own particles.
 Eigen::VectorXd free_masses(const Structure& structure, const Body& body) {
-  Eigen::VectorXd mass = structure.mass.segment(body.first_particle, body.particles);
-  for (int i = 0; i < body.particles; ++i)
-    if (structure.pinned(body.first_particle + i)) mass(i) = 0.0;
-  return mass;
+  return free_mass(structure).segment(body.first_particle, body.particles);
 }
 
 }  // namespace
@@ -111,7 +109,7 @@ LevelHierarchy build_levels(const Structure& structure, const Body& body) {
     SparseRows rows = aggregation(graph, present);
     gathers = graph.size() < nodes && !graph.empty();
     if (!gathers) break;
-    add_level(levels, mass, std::move(rows), static_cast<int>(graph.size()));
+    levels.level.push_back(level_of(std::move(rows), static_cast<int>(graph.size()), mass));
     mass = levels.level.back().mass;
     present.assign(graph.size(), true);
   }
@@ -162,12 +160,6 @@ SparseRows short_product(const SparseRows& left, const SparseRows& right, int co
     result.first.push_back(static_cast<int>(result.column.size()));
   }
   return result;
-}
-
-NodeLevel level_of(SparseRows interpolation, int nodes, const Eigen::VectorXd& mass) {
-  LevelHierarchy one;
-  add_level(one, mass, std::move(interpolation), nodes);
-  return std::move(one.level.front());
 }
 
 NodeLevel coarse_grid(const Structure& structure, const Body& body, const GridShape& shape, const GridShape& coarse) {

@@ -61,10 +61,6 @@ class MeanFilter {
   Eigen::MatrixX3d back_;
 };
 
-Eigen::VectorXd free_mass(const Structure& structure) {
-  return structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
-}
-
 /// Eigenvalues of F (a A + b C - sigma I).
 class Spectrum {
  public:

@@ -9,7 +9,6 @@ namespace billow::sim {
 EigenvalueEstimate filtered_eigenvalue(const Structure& structure, const StiffnessMatrix& stiffness,
                                        const Filter& filter, const EigenvalueOptions& options) {
   FilterScratch scratch;
-  const Eigen::VectorXd free_mass = structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
   const ParticleOperator acceleration = [&](const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
     stiffness.multiply(x, y);
     y = structure.inverse_mass.asDiagonal() * y;
@@ -20,7 +19,7 @@ EigenvalueEstimate filtered_eigenvalue(const Structure& structure, const Stiffne
   };
   if (filter.nonnegative()) {
     const ExtremeEigenvalue found = largest_eigenvalue(
-        {acceleration, filtered, free_mass},
+        {acceleration, filtered, free_mass(structure)},
         {.tolerance = options.tolerance, .max_iterations = options.max_iterations, .seed = options.seed});
     return {found.value, found.iterations, found.converged, found.error};
   }
@@ -30,7 +29,7 @@ EigenvalueEstimate filtered_eigenvalue(const Structure& structure, const Stiffne
     filtered(unfiltered, y);
   };
   const LargestModulus found =
-      largest_modulus(both, free_mass,
+      largest_modulus(both, free_mass(structure),
                       {.max_iterations = options.max_iterations, .tolerance = options.tolerance, .seed = options.seed});
   return {found.value, found.iterations, found.converged, found.residual};
 }

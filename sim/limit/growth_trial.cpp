@@ -55,8 +55,7 @@ GrowthTrial::GrowthTrial(const LinearisedStep& step, std::uint64_t seed)
 double GrowthTrial::energy(const State& state) {
   step_.linearisation.stiffness.multiply(state.position, product_);
   return 0.5 * (state.position.cwiseProduct(product_).sum() +
-                state.velocity.rowwise().squaredNorm().dot(
-                    step_.structure.inverse_mass.cwiseSign().cwiseProduct(step_.structure.mass)));
+                state.velocity.rowwise().squaredNorm().dot(free_mass(step_.structure)));
 }
 
 bool GrowthTrial::stable(double h, double most_growth) {

@@ -78,7 +78,7 @@ std::optional<StepSetter> find_step_setter(const Structure& structure, const Sti
   setter.neighbour = other_end(structure, shortest, setter.particle);
   setter.length = structure.rest_length(shortest);
   setter.mass = structure.mass(setter.particle);
-  setter.median_mass = median_of_positive(structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass));
+  setter.median_mass = median_of_positive(free_mass(structure));
   return setter;
 }
 

@@ -11,9 +11,8 @@ EigenvalueEstimate max_eigenvalue(const Structure& structure, const StiffnessMat
     stiffness.multiply(x, y);
     y = structure.inverse_mass.asDiagonal() * y;
   };
-  const Eigen::VectorXd free_mass = structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
   const ExtremeEigenvalue found = largest_eigenvalue(
-      {acceleration, {}, free_mass},
+      {acceleration, {}, free_mass(structure)},
       {.tolerance = options.tolerance, .max_iterations = options.max_iterations, .seed = options.seed}, mode);
   return {found.value, found.iterations, found.converged, found.error};
 }

@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "sim/pass/level_pass.h"
+#include "sim/filter/filter_operator.h"
+#include "sim/pass/level_transfer.h"
 
 namespace billow::sim {
 
@@ -12,30 +13,19 @@ CoarseCorrection::CoarseCorrection(const Structure& structure, const Body& body,
       particles_(body.particles),
       level_(std::move(level)),
       sums_(structure, body, level_),
-      free_(Eigen::VectorXd::Ones(body.particles)),
-      fine_(level_.grid ? 0 : 4 * static_cast<std::size_t>(body.particles)),
+      free_(structure.inverse_mass.segment(body.first_particle, body.particles).cwiseSign()),
       nodes_(4 * static_cast<std::size_t>(level_.nodes())),
-      packed_(3 * level_.nodes()) {
-  for (int i = 0; i < particles_; ++i)
-    if (structure.pinned(first_particle_ + i)) free_(i) = 0.0;
-}
+      packed_(3 * level_.nodes()) {}
 
 void CoarseCorrection::set(const StiffnessMatrix& matrix) { factor_.compute(sums_.sum(matrix)); }
 
 void CoarseCorrection::add(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
   if (factor_.info() != Eigen::Success) return;
-  restrict_to_nodes(x);
+  const LevelParticles body{level_, first_particle_, particles_};
+  const FilterColumns from{{x.col(0).data(), x.col(1).data(), x.col(2).data()}, {}};
+  particles_to_nodes(body, from, free_, fine_, nodes_.data(), scratch_);
   solve_at_nodes();
-  add_interpolated(y);
-}
-
-void CoarseCorrection::restrict_to_nodes(const Eigen::MatrixX3d& x) {
-  const FilterColumns columns{{x.col(0).data(), x.col(1).data(), x.col(2).data()}, {}};
-  if (level_.grid)
-    return restrict_grid(*level_.grid, columns, first_particle_, free_.data(), nodes_.data(), 0,
-                         level_.grid->down.nodes(), scratch_);
-  put_momenta(columns, first_particle_, free_.data(), fine_.data(), 0, particles_);
-  restrict_rows(level_.restriction, fine_.data(), nodes_.data(), 0, level_.nodes());
+  nodes_to_particles(body, nodes_.data(), 1.0, columns_of(y, y), scratch_);
 }
 
 void CoarseCorrection::solve_at_nodes() {
@@ -44,16 +34,6 @@ void CoarseCorrection::solve_at_nodes() {
   packed_.reshaped(3, count) = rows.topRows<3>();
   factor_.solveInPlace(packed_);
   rows.topRows<3>() = packed_.reshaped(3, count);
-}
-
-void CoarseCorrection::add_interpolated(Eigen::MatrixX3d& y) {
-  double *const x0 = y.col(0).data(), *const x1 = y.col(1).data(), *const x2 = y.col(2).data();
-  const FilterColumns columns{{x0, x1, x2}, {x0, x1, x2}};
-  if (level_.grid)
-    put_interpolated_grid(*level_.grid, level_.interpolation, nodes_.data(), 1.0, columns, first_particle_, 0,
-                          level_.grid->down.fine(), scratch_);
-  else
-    put_interpolated(level_.interpolation, nodes_.data(), 1.0, columns, first_particle_, 0, particles_);
 }
 
 }  // namespace billow::sim

@@ -20,8 +20,6 @@ class CoarseCorrection {
   void add(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y);
 
  private:
-  void restrict_to_nodes(const Eigen::MatrixX3d& x);
-  void add_interpolated(Eigen::MatrixX3d& y);
   void solve_at_nodes();
 
   int first_particle_, particles_;
@@ -31,7 +29,7 @@ class CoarseCorrection {
   Eigen::VectorXd free_;                // of the body's particles: 1, pinned ones 0
   AlignedVector<double> fine_, nodes_;  // rows of x, y, z and a number that means nothing
   Eigen::VectorXd packed_;
-  PartScratch scratch_;
+  PassScratch scratch_;
 };
 
 }  // namespace billow::sim

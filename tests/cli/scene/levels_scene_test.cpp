@@ -103,8 +103,8 @@ TEST_F(SceneLevels, RefuseVelocitiesImplicitSchemesAndRatiosOutOfRange) {
             "scene.yaml:4:43: levels filter forces: of velocities they would damp every fold; use 'target: force'");
   for (const std::string method : {"imex", "backward_euler"})
     EXPECT_EQ(error(sheet("filter: {kernel: levels}, method: " + method)),
-              "scene.yaml:4:18: a force filter needs an explicit method, and " + method +
-                  " is implicit; filter the velocity, or nothing");
+              "scene.yaml:4:18: levels need an explicit method, and " + method +
+                  " is implicit; use fb_euler, or filter nothing");
   EXPECT_EQ(error(sheet("filter: {kernel: levels, ratio: 0.9}")),
             "scene.yaml:4:42: ratio is 0.9; it must be at least 1 and at most 1000");
   EXPECT_EQ(error(sheet("filter: {kernel: levels, ratio: much}")),

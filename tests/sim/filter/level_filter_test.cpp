@@ -17,6 +17,7 @@
 #include "sim/force/forces.h"
 #include "tests/support/dense_levels.h"
 #include "tests/support/evaluations.h"
+#include "tests/support/filters.h"
 #include "tests/support/level_bodies.h"
 #include "tests/support/step_matrix.h"
 #include "tests/support/structures.h"
@@ -65,7 +66,7 @@ void for_every_filter(const Check& check) {
 MatrixXd sum_of_levels(const Structure& structure, const LevelShares& shares) {
   const std::vector<MatrixXd> p =
       test::interpolations(build_levels(structure, structure.body[0]), structure.particles());
-  const VectorXd mass = structure.mass.cwiseProduct(structure.inverse_mass.cwiseSign());
+  const VectorXd mass = free_mass(structure);
   MatrixXd sum = MatrixXd::Zero(p[0].rows(), p[0].rows());
   for (std::size_t l = 0; l < shares.gamma.size(); ++l) {
     const VectorXd d = p[l].transpose() * mass;
@@ -365,17 +366,7 @@ TEST(LevelShares, AreFoundWhereNothingIsThereToFilter) {
 
 TEST(LevelFilter, MovesAndKicksByWhatItApplies) {
   for_every_filter([](const Structure& structure, const Filter& filter) {
-    const State state = shaken_state(structure, 0.01, 1.0);
-    const MatrixX3d noise = seeded_noise(structure.particles(), 5);
-    MatrixX3d expected = noise, field = noise, moved = state.position, velocity(structure.particles(), 3), kicked;
-    test::apply(filter, state.position, 0.0, expected);
-    FilterScratch scratch;
-    filter.apply_and_move(moved, 0.0, field, 0.01, velocity, moved, scratch);
-    EXPECT_EQ(velocity, expected);
-    EXPECT_EQ(moved, (state.position + 0.01 * expected).eval());
-    field = noise;
-    filter.apply_and_kick(state.position, 0.0, field, state.velocity, 0.01, kicked, scratch);
-    EXPECT_EQ(kicked, (state.velocity + 0.01 * expected).eval());
+    test::expect_moves_and_kicks_as_applied(filter, structure, shaken_state(structure, 0.01, 1.0));
   });
 }
 

@@ -17,10 +17,6 @@ namespace {
 
 using test::grid;
 
-Eigen::VectorXd free_mass(const Structure& structure) {
-  return structure.inverse_mass.cwiseSign().cwiseProduct(structure.mass);
-}
-
 /// weight M^-1 K - shift
 SymmetricProduct dynamics(const Structure& structure, const StiffnessMatrix& stiffness, double weight = 1.0,
                           double shift = 0.0) {

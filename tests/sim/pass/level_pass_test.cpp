@@ -129,7 +129,7 @@ TEST(GridPass, RestrictsAndInterpolatesWhatTheRowsOfItsMatrixSay) {
     const int n = sheet.particles();
     const NodeLevel level = build_levels(sheet, sheet.body[0]).level[0];
     const GridInterpolation& grid = *level.grid;
-    const Eigen::VectorXd mass = sheet.mass.cwiseProduct(sheet.inverse_mass.cwiseSign());
+    const Eigen::VectorXd mass = free_mass(sheet);
     const MatrixX3d field = seeded_noise(n, 3);
     MatrixX3d by_grid(n, 3), by_rows(n, 3);
     Rows fine(4 * n), coarse(4 * level.nodes()), expected(4 * level.nodes());

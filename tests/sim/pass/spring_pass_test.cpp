@@ -18,6 +18,7 @@
 #include "sim/pass/spring_plan.h"
 #include "sim/step/step.h"
 #include "tests/support/evaluations.h"
+#include "tests/support/filters.h"
 #include "tests/support/instruction_sets.h"
 #include "tests/support/structures.h"
 
@@ -199,19 +200,7 @@ TEST(FilterPass, MovesAndKicksInOnePassBitForBit) {
       const Structure structure = pinned_and_rubbed(plain);
       const Filter filter(structure, {.passes = passes});
       const State state = shaken(structure);
-      const Eigen::MatrixX3d noise = seeded_noise(structure.particles(), 5);
-      Eigen::MatrixX3d expected = noise, velocity(structure.particles(), 3), kicked;
-      test::apply(filter, state.position, 0.0, expected);
-      FilterScratch scratch;
-      on_every_instruction_set([&] {
-        Eigen::MatrixX3d moved = state.position, field = noise;
-        filter.apply_and_move(moved, 0.0, field, 0.01, velocity, moved, scratch);
-        EXPECT_EQ(velocity, expected);
-        EXPECT_EQ(moved, (state.position + 0.01 * expected).eval());
-        field = noise;
-        filter.apply_and_kick(state.position, 0.0, field, state.velocity, 0.01, kicked, scratch);
-        EXPECT_EQ(kicked, (state.velocity + 0.01 * expected).eval());
-      });
+      on_every_instruction_set([&] { test::expect_moves_and_kicks_as_applied(filter, structure, state); });
     }
 }
 
