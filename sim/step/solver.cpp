@@ -73,6 +73,7 @@ Solver::Solver(const Structure& structure, const Forces& forces, const SolverOpt
       state_(std::move(initial)),
       previous_(state_),
       start_time_(state_.time) {
+  for (const HookMaker& make : options_.hooks) step_.add(make());
   if (!(options_.step > 0.0)) throw InputError("the time step must be positive");
   for (int i = 0; i < structure.particles(); ++i)
     if (structure.pinned(i)) state_.velocity.row(i).setZero();
@@ -87,6 +88,7 @@ void Solver::advance() {
   ticks_ += ticks_per_step >> halvings_;
   state_.time = time_of(ticks_);
   if (accounts) work_ += forces_.work(before_, state_);
+  work_ += step_.work();
   check_divergence();
 }
 
@@ -95,6 +97,7 @@ void Solver::go_back(const Checkpoint& checkpoint) {
   ticks_ = checkpoint.ticks, steps_ = checkpoint.steps;
   work_ = checkpoint.work, largest_strain_ = checkpoint.largest_strain;
   looked_at_square_ = 0.0;
+  step_.forget();
 }
 
 // Speeds that come to a rest length a step and have doubled since springs were last looked at are suspect: what grows

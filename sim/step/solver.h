@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/body/state.h"
 #include "sim/body/structure.h"
@@ -24,6 +25,7 @@ struct SolverOptions {
   Method method = Method::fb_euler;
   IntegratorOptions integrator = {};
   std::optional<FilterOptions> filter = {};
+  std::vector<HookMaker> hooks = {};  // in the order in which they act
   double step = 0.0;                 // [s] > 0
   std::optional<double> limit = {};  // [s] the largest stable step as far as it is known: quoted when the run diverges
   double max_strain = suspect_strain;  // a spring longer than (1 + this) rest lengths has diverged
@@ -66,7 +68,7 @@ class Solver {
   std::string divergence_text(const std::string& advice) const;
   /// What to do about a step that was given: the limit, if it is beyond that.
   std::string advice() const;
-  /// [J] that laws of force which are not passive have put in.
+  /// [J] that laws of force which are not passive, and hooks, have put in.
   double work() const { return work_; }
   /// By how many rest lengths a spring was stretched at most, of those looked at.
   double largest_strain() const { return largest_strain_; }

@@ -29,6 +29,7 @@ void Step::operator()(State& state, double h) {
   if (!prepared_) use_huge_pages(state.position), use_huge_pages(state.velocity);
   prepared_ = true;
   const double time = state.time;
+  for (const auto& hook : hooks_) hook->begin(state, h);
   const Move move = integrator_->integrate(forces_, state, h, velocity_);  // forces -> integrate
   if (velocity_filter_ && hooks_.empty() && move.by_old == 0.0 && move.by_new != 0.0) {
     velocity_filter_->apply_and_move(velocity_filter_.position(state), time, velocity_, move.by_new, state.velocity,
@@ -39,6 +40,17 @@ void Step::operator()(State& state, double h) {
     finish(state, move);
   }
   state.time = time + h;
+  for (const auto& hook : hooks_) hook->end(state);
+}
+
+void Step::forget() {
+  for (const auto& hook : hooks_) hook->forget();
+}
+
+double Step::work() const {
+  double sum = 0.0;
+  for (const auto& hook : hooks_) sum += hook->work();
+  return sum;
 }
 
 void Step::finish(State& state, const Move& move) {

@@ -2,6 +2,7 @@
 // what comes out, and by the certificate.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,13 +11,26 @@
 
 namespace billow::sim {
 
-/// Something that acts on the new velocities between the filter and the move: contact, limits of strain.
-class VelocityHook {
+/// Something besides forces and filter that has a say in a step: contact, limits of strain, pins that move. Its answers
+/// depend on the states that it is shown and on nothing else but what it noted since it was made or last forgot.
+class StepHook {
  public:
-  virtual ~VelocityHook() = default;
+  virtual ~StepHook() = default;
+  /// A step of h [s] from `state` is about to begin. May set the velocities of pinned particles, which every scheme
+  /// keeps.
+  virtual void begin(State& /*state*/, double /*h*/) {}
   /// velocity (n x 3) are the filtered ones of a step that leaves `state`, whose positions are still to go `move`.
-  virtual void apply(const State& state, const Move& move, Eigen::MatrixX3d& velocity) = 0;
+  virtual void apply(const State& /*state*/, const Move& /*move*/, Eigen::MatrixX3d& /*velocity*/) {}
+  /// The step ends at `state`, which may still be changed.
+  virtual void end(State& /*state*/) {}
+  /// The run goes on from elsewhere: what was noted means nothing any more.
+  virtual void forget() {}
+  /// [J] that it put into the motion during the last step, negative where it took some out and did not lose it.
+  virtual double work() const { return 0.0; }
 };
+
+/// Makes a hook for each solver: hooks have a memory of their own.
+using HookMaker = std::function<std::unique_ptr<StepHook>()>;
 
 /// One scheme with, or without, one filter. The filter is a post-process: of the velocities as soon as the scheme knows
 /// them, or of the accelerations M^-1 f as soon as the forces are summed (explicit schemes only).
@@ -31,11 +45,15 @@ class Step {
   Step& operator=(const Step&) = delete;
 
   /// Hooks act in the order in which they were added.
-  void add(std::unique_ptr<VelocityHook> hook) { hooks_.push_back(std::move(hook)); }
+  void add(std::unique_ptr<StepHook> hook) { hooks_.push_back(std::move(hook)); }
 
   /// state (t) -> state (t + h).
   void operator()(State& state, double h);
 
+  /// The next step does not follow from the last one.
+  void forget();
+  /// [J] of all hooks during the last step.
+  double work() const;
   SolveCounts solve_counts() const { return integrator_->solve_counts(); }
 
  private:
@@ -44,7 +62,7 @@ class Step {
   StepForces forces_;
   std::unique_ptr<Integrator> integrator_;
   PlacedFilter velocity_filter_;
-  std::vector<std::unique_ptr<VelocityHook>> hooks_;
+  std::vector<std::unique_ptr<StepHook>> hooks_;
   Eigen::MatrixX3d velocity_;  // (n x 3) the new ones
   FilterScratch scratch_;
   bool prepared_ = false;  // whether the state's arrays have been seen

@@ -304,7 +304,7 @@ TEST(EveryScheme, FallsFreelyWithGravity) {
 }
 
 /// Lets nothing through.
-class Stop : public VelocityHook {
+class Stop : public StepHook {
  public:
   void apply(const State&, const Move&, Eigen::MatrixX3d& velocity) override { velocity.setZero(); }
 };

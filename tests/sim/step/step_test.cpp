@@ -36,7 +36,7 @@ std::vector<Method> methods() {
 }
 
 /// Leaves velocities alone.
-class Idle : public VelocityHook {
+class Idle : public StepHook {
  public:
   void apply(const State&, const Move&, Eigen::MatrixX3d&) override {}
 };
@@ -146,7 +146,7 @@ TEST(EveryExplicitScheme, TakesForcesAtItsOwnMoments) {
 }
 
 /// Writes down what it sees, then makes velocities `factor` times as large.
-class Scaling : public VelocityHook {
+class Scaling : public StepHook {
  public:
   struct Seen {
     State state;
