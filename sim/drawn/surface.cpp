@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "sim/mesh/planar_uv.h"
+#include "sim/mesh/split_quad.h"
 
 namespace billow::sim {
 namespace {
-
-// A diagonal must be shorter than the other by more than rounding to win; a square's is chosen by vertex number.
-constexpr double diagonal_margin = 1e-6;
 
 using FaceUv = std::array<Eigen::Vector2f, 4>;
 
@@ -22,14 +20,10 @@ std::vector<FaceUv> planar_corner_uvs(const Mesh& mesh) {
   return corner;
 }
 
-// The first corner of the diagonal that splits a quad: 0 for 0-2, 1 for 1-3. Equal diagonals go through the corner with
-// the lowest number, so that a grid is split the same way everywhere, however its faces were written.
 int split_corner(const Mesh& mesh, const Face& quad) {
-  const double even = (mesh.position.row(quad[2]) - mesh.position.row(quad[0])).norm();
-  const double odd = (mesh.position.row(quad[3]) - mesh.position.row(quad[1])).norm();
-  if (even < odd * (1.0 - diagonal_margin)) return 0;
-  if (odd < even * (1.0 - diagonal_margin)) return 1;
-  return static_cast<int>(std::min_element(quad.begin(), quad.end()) - quad.begin()) % 2;
+  std::array<Eigen::Vector3d, 4> corner;
+  for (int k = 0; k < 4; ++k) corner[k] = mesh.position.row(quad[k]);
+  return sim::split_corner(quad, corner);
 }
 
 // Corners in the order in which faces first use them.
