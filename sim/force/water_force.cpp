@@ -1,28 +1,9 @@
 // Faces -> pressure.
 #include "sim/force/water_force.h"
 
-#include <Eigen/Geometry>
+#include "sim/force/face_vector.h"
 
 namespace billow::sim {
-namespace {
-
-Eigen::RowVector3d side(const Eigen::MatrixX3d& position, const Face& face, int from, int to) {
-  return position.row(face[to]) - position.row(face[from]);
-}
-
-// Half the cross product of the diagonals: A n of a flat quad, and of the mean of a bent quad's two triangulations.
-Eigen::RowVector3d area_normal(const Eigen::MatrixX3d& position, const Face& face) {
-  if (corner_count(face) == 3) return 0.5 * side(position, face, 0, 1).cross(side(position, face, 0, 2));
-  return 0.5 * side(position, face, 0, 2).cross(side(position, face, 1, 3));
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& e) {  // cross_matrix(e) x = e x x
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -e.z(), e.y(), e.z(), 0.0, -e.x(), -e.y(), e.x(), 0.0;
-  return matrix;
-}
-
-}  // namespace
 
 /// How a face moves against the water.
 struct WaterForce::Flow {
@@ -41,7 +22,7 @@ WaterForce::WaterForce(const Structure& structure, const Water& water, const std
 }
 
 WaterForce::Flow WaterForce::flow_at(const State& state, const Face& face) const {
-  Flow flow{corner_count(face), area_normal(state.position, face), Eigen::RowVector3d::Zero()};
+  Flow flow{corner_count(face), area_vector(state.position, face), Eigen::RowVector3d::Zero()};
   for (int c = 0; c < flow.corners; ++c) flow.velocity += state.velocity.row(face[c]) / flow.corners;
   flow.velocity -= water_.velocity.transpose();
   flow.area = flow.normal.norm();
@@ -84,8 +65,8 @@ void WaterForce::add_linearisation(const State& state, double position_weight, d
     for (int k = 0; k < m; ++k) {
       Eigen::Matrix3d block = by_velocity;
       if (turns) {
-        const Eigen::Vector3d across = side(state.position, face, (k + m - 1) % m, (k + 1) % m).transpose();
-        block -= 0.5 * position_weight * water_.resistance / m * by_normal * cross_matrix(across);
+        const Eigen::Matrix3d turn = cross_matrix(across(state.position, face, k));
+        block -= 0.5 * position_weight * water_.resistance / m * by_normal * turn;
       }
       for (int c = 0; c < m; ++c) matrix.add_block(face[c], face[k], block);
     }
@@ -98,7 +79,7 @@ void WaterForce::add_linearisation(const State& state, double position_weight, d
 bool WaterForce::add_bound(Shapes shapes, Linearisation& bound) const {
   for (const Face& face : face_) {
     const int m = corner_count(face);
-    const Eigen::Vector3d normal = area_normal(structure_.rest_position, face).transpose();
+    const Eigen::Vector3d normal = area_vector(structure_.rest_position, face).transpose();
     if (normal.norm() == 0.0) continue;
     const Eigen::Matrix3d reach = shapes == Shapes::any
                                       ? Eigen::Matrix3d(largest_growth * normal.norm() * Eigen::Matrix3d::Identity())

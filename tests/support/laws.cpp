@@ -6,6 +6,7 @@
 #include "sim/force/muscle_force.h"
 #include "sim/force/spring_force.h"
 #include "sim/force/water_force.h"
+#include "sim/force/wind_force.h"
 #include "sim/limit/linear_force.h"
 #include "tests/support/structures.h"
 #include "tests/support/swimmers.h"
@@ -23,6 +24,12 @@ Structure sheet(SpringModel model, DampingModel damping) {
   structure.body[0].buckling_rigidity = 4e-3;
   structure.body[0].friction = 0.3;
   return test::with_uneven_masses(structure, 0.5);
+}
+
+const std::vector<Face>& sheet_faces() {
+  static const std::vector<Face> faces = {{0, 4, 5, 1},  {1, 5, 6, 2},  {2, 6, 7, -1}, {2, 7, 3, -1},
+                                          {4, 8, 9, -1}, {4, 9, 5, -1}, {5, 9, 10, 6}, {6, 10, 11, 7}};
+  return faces;
 }
 
 Structure ring_and_fish() {
@@ -69,7 +76,18 @@ Case water_case(const std::string& name, const Eigen::Vector3d& velocity, Power 
     return std::make_shared<WaterForce>(s, Water{resistance, velocity}, fish_faces(), first_fish_particle);
   });
   water.faces = fish_faces_in_the_whole();
+  if (power == Power::gives) water.stream = velocity;
   return water;
+}
+
+// In these motions some faces meet the air slower than the force is quadratic, and some faster.
+Case wind_case(const std::string& name, const Eigen::Vector3d& velocity, Power power) {
+  Case wind = make(name, sheet(SpringModel::linear, DampingModel::projected), power, [&](const Structure& s) {
+    return std::make_shared<WindForce>(s, Wind{.velocity = velocity, .quadratic_to = velocity.isZero() ? 0.5 : 1.5},
+                                       sheet_faces(), 0);
+  });
+  if (power == Power::gives) wind.stream = velocity;
+  return wind;
 }
 
 // It refers to a linearisation, which lives as long as it does.
@@ -104,6 +122,8 @@ const std::vector<Case>& cases() {
       muscle_case("still muscles", {}, Power::keeps),
       water_case("still water", Eigen::Vector3d::Zero(), Power::takes),
       water_case("a current", current, Power::gives),
+      wind_case("still air", Eigen::Vector3d::Zero(), Power::takes),
+      wind_case("a wind", 4.0 * current, Power::gives),
       linearised_case(),
   };
   return list;

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Case {
   std::shared_ptr<const sim::ForceLaw> law;
   Power power;
   std::vector<sim::Face> faces = {};  // whose growth bounds the shapes that its bound is for
+  std::optional<Eigen::Vector3d> stream =
+      {};  // [m/s] of what flows evenly around it, and pushes it with nothing moving
 };
 
 /// Every law, several times where it has several models.
@@ -37,6 +40,8 @@ Case springs_of(const std::string& name, const sim::Structure& structure, Power 
 sim::Structure sheet(sim::SpringModel model, sim::DampingModel damping);
 /// A fish that is not the first body, so that what it counts from is seen.
 sim::Structure ring_and_fish();
+/// Quads and triangles over all of a sheet.
+const std::vector<sim::Face>& sheet_faces();
 inline constexpr int fish_body = 1, first_fish_particle = 5;
 
 /// Everything moves, and a fish is somewhere in its swimming and turning.
