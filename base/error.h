@@ -16,6 +16,11 @@ struct DivergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same, where no step is to blame: the text says what is in the way of what.
+struct BlockedError : DivergenceError {
+  using DivergenceError::DivergenceError;
+};
+
 /// A result could not be written (exit status 6).
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -25,6 +25,12 @@ struct SolveCounts {
   long tightened = 0;    // conjugate gradient, to less than its tolerance: what was left would have added energy
   long by_cholesky = 0;  // handed over by a conjugate gradient that broke down, ran out of iterations or stayed harmful
   long failures = 0;     // by neither
+
+  SolveCounts& operator+=(const SolveCounts& other) {
+    solves += other.solves, iterations += other.iterations, tightened += other.tightened;
+    by_cholesky += other.by_cholesky, failures += other.failures;
+    return *this;
+  }
 };
 
 /// How positions go on once the new velocities are final: x += by_old v + by_new v', v and v' being the velocities

@@ -62,33 +62,62 @@ State interpolated(const State& from, const State& to, double time) {
           (1.0 - t) * from.velocity + t * to.velocity, time};
 }
 
+// Straight from one to the other: what hooks have kept apart at both ends is apart in between.
+State on_line(const State& from, const State& to, double time) {
+  const double t = (time - from.time) / (to.time - from.time);
+  return {(1.0 - t) * from.position + t * to.position, (1.0 - t) * from.velocity + t * to.velocity, time};
+}
+
 }  // namespace
+
+Solver::Phase::Phase(const Structure& structure, const Forces& the_forces, const SolverOptions& options,
+                     const std::optional<FilterOptions>& filter_options, const std::vector<HookMaker>& hooks)
+    : forces(the_forces),
+      filter(filter_options ? std::make_optional<Filter>(structure, *filter_options) : std::nullopt),
+      step(forces, options.method, options.integrator, filter ? &*filter : nullptr) {
+  for (const HookMaker& make : hooks) step.add(make());
+}
 
 Solver::Solver(const Structure& structure, const Forces& forces, const SolverOptions& options, State initial)
     : structure_(structure),
       forces_(forces),
       options_(options),
-      filter_(options.filter ? std::make_optional<Filter>(structure, *options.filter) : std::nullopt),
-      step_(forces, options.method, options.integrator, filter_ ? &*filter_ : nullptr),
+      phase_(std::make_unique<Phase>(structure, forces, options, options.filter, options.hooks)),
       state_(std::move(initial)),
       previous_(state_),
       start_time_(state_.time) {
-  for (const HookMaker& make : options_.hooks) step_.add(make());
   if (!(options_.step > 0.0)) throw InputError("the time step must be positive");
   for (int i = 0; i < structure.particles(); ++i)
     if (structure.pinned(i)) state_.velocity.row(i).setZero();
 }
 
+// Which phase it is depends on the time alone, so that going back across a release needs no memory of it.
+void Solver::enter_phase() {
+  std::size_t due = 0;
+  while (due < options_.releases.size() && options_.releases[due].time <= state_.time + 1e-9 * options_.step) ++due;
+  if (due == released_) return;
+  earlier_ += phase_->step.solve_counts();
+  released_ = due;
+  if (due == 0) {
+    phase_ = std::make_unique<Phase>(structure_, forces_, options_, options_.filter, options_.hooks);
+  } else {
+    const Release& now = options_.releases[due - 1];
+    phase_ = std::make_unique<Phase>(*now.structure, *now.forces, options_, now.filter, now.hooks);
+  }
+}
+
 // Time is counted in the smallest steps there are; whole numbers of them times a power of two are exact.
 void Solver::advance() {
-  const bool accounts = !forces_.passive();
+  enter_phase();
+  const Forces& forces = phase_->forces;
+  const bool accounts = !forces.passive();
   if (accounts) before_ = state_;
-  step_(state_, step());
+  phase_->step(state_, step());
   ++steps_;
   ticks_ += ticks_per_step >> halvings_;
   state_.time = time_of(ticks_);
-  if (accounts) work_ += forces_.work(before_, state_);
-  work_ += step_.work();
+  if (accounts) work_ += forces.work(before_, state_);
+  work_ += phase_->step.work();
   check_divergence();
 }
 
@@ -97,7 +126,7 @@ void Solver::go_back(const Checkpoint& checkpoint) {
   ticks_ = checkpoint.ticks, steps_ = checkpoint.steps;
   work_ = checkpoint.work, largest_strain_ = checkpoint.largest_strain;
   looked_at_square_ = 0.0;
-  step_.forget();
+  phase_->step.forget();
 }
 
 // Speeds that come to a rest length a step and have doubled since springs were last looked at are suspect: what grows
@@ -137,6 +166,11 @@ std::string Solver::advice() const {
       scheme, *options_.limit);
 }
 
+SolveCounts Solver::solve_counts() const {
+  SolveCounts counts = earlier_;
+  return counts += phase_->step.solve_counts();
+}
+
 State Solver::sample(double time) {
   const double rounding = 1e-9 * step();
   while (state_.time < time - rounding) {
@@ -145,7 +179,8 @@ State Solver::sample(double time) {
     advance();
   }
   if (state_.time <= time + rounding) return state_;
-  return interpolated(previous_, state_, time);
+  if (!phase_->step.hooked()) return interpolated(previous_, state_, time);
+  return phase_->step.straight() ? on_line(previous_, state_, time) : state_;
 }
 
 }  // namespace billow::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,12 +22,23 @@ constexpr double suspect_strain = 10.0;
 /// No cloth is stretched so far, in balance or not.
 constexpr double torn_strain = 1000.0;
 
+/// From a time on, fewer particles are pinned: the same particles and springs under the same laws, seen otherwise by
+/// scheme and filter. What it refers to must outlive the solver.
+struct Release {
+  double time = 0.0;  // [s] held through the first step that ends then or later
+  const Structure* structure = nullptr;
+  const Forces* forces = nullptr;
+  std::optional<FilterOptions> filter = {};
+  std::vector<HookMaker> hooks = {};
+};
+
 struct SolverOptions {
   Method method = Method::fb_euler;
   IntegratorOptions integrator = {};
   std::optional<FilterOptions> filter = {};
-  std::vector<HookMaker> hooks = {};  // in the order in which they act
-  double step = 0.0;                 // [s] > 0
+  std::vector<HookMaker> hooks = {};   // in the order in which they act
+  std::vector<Release> releases = {};  // ascending in time
+  double step = 0.0;                   // [s] > 0
   std::optional<double> limit = {};  // [s] the largest stable step as far as it is known: quoted when the run diverges
   double max_strain = suspect_strain;  // a spring longer than (1 + this) rest lengths has diverged
 };
@@ -51,7 +63,8 @@ class Solver {
   void advance();
 
   /// The state at `time` [s]: steps until that time is reached, then interpolates within the last step (cubic in
-  /// position, linear in velocity). Times must not go back by more than one step.
+  /// position, linear in velocity; linear in both where hooks act, and the step's end where they bent its way, which
+  /// the state's own time then says). Times must not go back by more than one step.
   State sample(double time);
 
   Checkpoint checkpoint() const { return {state_, previous_, ticks_, steps_, work_, largest_strain_}; }
@@ -75,7 +88,7 @@ class Solver {
 
   const State& state() const { return state_; }
   long steps() const { return steps_; }
-  SolveCounts solve_counts() const { return step_.solve_counts(); }
+  SolveCounts solve_counts() const;
 
  private:
   static constexpr long ticks_per_step = 1L << most_halvings;
@@ -83,13 +96,23 @@ class Solver {
   double time_of(long ticks) const {
     return start_time_ + static_cast<double>(ticks) * std::ldexp(options_.step, -most_halvings);
   }
+  /// Between two releases.
+  struct Phase {
+    Phase(const Structure& structure, const Forces& forces, const SolverOptions& options,
+          const std::optional<FilterOptions>& filter_options, const std::vector<HookMaker>& hooks);
+    const Forces& forces;
+    std::optional<Filter> filter;
+    Step step;
+  };
+  void enter_phase();
   void check_divergence();
 
-  const Structure& structure_;
-  const Forces& forces_;
+  const Structure& structure_;  // of the first phase: only pins differ in the others
+  const Forces& forces_;        // of the first phase
   SolverOptions options_;
-  std::optional<Filter> filter_;
-  Step step_;
+  std::size_t released_ = 0;      // releases before the phase
+  std::unique_ptr<Phase> phase_;  // that the last step was taken in
+  SolveCounts earlier_;           // of phases that are left
   State state_, previous_;
   State before_;  // the step, where work is to be accounted for
   double start_time_ = 0.0, work_ = 0.0, largest_strain_ = 0.0;

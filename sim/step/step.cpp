@@ -1,6 +1,8 @@
 // The stations of a step, one after another.
 #include "sim/step/step.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/huge_pages.h"
 
@@ -45,6 +47,10 @@ void Step::operator()(State& state, double h) {
 
 void Step::forget() {
   for (const auto& hook : hooks_) hook->forget();
+}
+
+bool Step::straight() const {
+  return std::all_of(hooks_.begin(), hooks_.end(), [](const auto& hook) { return hook->straight(); });
 }
 
 double Step::work() const {

@@ -23,6 +23,8 @@ class StepHook {
   virtual void apply(const State& /*state*/, const Move& /*move*/, Eigen::MatrixX3d& /*velocity*/) {}
   /// The step ends at `state`, which may still be changed.
   virtual void end(State& /*state*/) {}
+  /// Whether everything between the last step's begin and end may be taken as a straight line.
+  virtual bool straight() const { return true; }
   /// The run goes on from elsewhere: what was noted means nothing any more.
   virtual void forget() {}
   /// [J] that it put into the motion during the last step, negative where it took some out and did not lose it.
@@ -52,8 +54,11 @@ class Step {
 
   /// The next step does not follow from the last one.
   void forget();
+  /// Whether the last step's positions went straight as far as its hooks know.
+  bool straight() const;
   /// [J] of all hooks during the last step.
   double work() const;
+  bool hooked() const { return !hooks_.empty(); }
   SolveCounts solve_counts() const { return integrator_->solve_counts(); }
 
  private:

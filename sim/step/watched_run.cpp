@@ -79,6 +79,9 @@ WatchedRun::Attempt WatchedRun::attempt(const std::vector<double>& times, double
     result.steps = solver_->steps(), result.time = solver_->state().time;
     while (solver_->state().time < end - 0.5 * solver_->step()) solver_->advance();
     result.outcome = judge();
+  } catch (const BlockedError& error) {
+    result.outcome = Outcome::divergence;
+    result.blocked = error.what();
   } catch (const DivergenceError&) {
     result.outcome = Outcome::divergence;
   }
@@ -131,7 +134,7 @@ void WatchedRun::accept_unexplained(Attempt attempt, const Solver::Checkpoint& g
 }
 
 void WatchedRun::give_up(Attempt attempt) {
-  divergence_ = solver_->divergence_text(cause());
+  divergence_ = attempt.blocked.empty() ? solver_->divergence_text(cause()) : attempt.blocked;
   steps_ = solver_->steps(), time_ = solver_->state().time;
   for (Sample& sample : attempt.samples) ready_.push_back(std::move(sample));
 }

@@ -73,6 +73,7 @@ class WatchedRun {
     long steps = 0;     // taken by the last of the samples,
     double time = 0.0;  // [s] and when that was
     std::vector<Sample> samples;
+    std::string blocked;  // what is in the way of what, where no step is to blame
   };
 
   void run_stretch();
