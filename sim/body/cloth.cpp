@@ -89,6 +89,8 @@ double mean_structural_length(const Structure& cloth) {
 
 }  // namespace
 
+double area(const Mesh& mesh) { return vertex_areas(mesh).sum(); }
+
 Structure build_cloth(const Mesh& mesh, const ClothOptions& options) {
   Structure cloth;
   cloth.rest_position = mesh.position;

@@ -24,6 +24,9 @@ struct ClothOptions {
   std::vector<int> pinned = {};  //         vertices, ascending
 };
 
+/// [m^2] of the mesh's faces, as masses are spread by it.
+double area(const Mesh& mesh);
+
 /// The cloth of `mesh`: one particle per vertex, springs as docs/method.md describes. Throws InputError on a mesh
 /// with a zero-length edge or a particle without mass.
 Structure build_cloth(const Mesh& mesh, const ClothOptions& options);
