@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 order=(base
-  sim/mesh sim/body sim/levels sim/linear sim/pass sim/force sim/filter sim/step sim/limit sim/drawn
+  sim/mesh sim/body sim/levels sim/linear sim/pass sim/force sim/filter sim/step sim/contact sim/limit sim/drawn
   render/image render/gl render/paper render/frame
   cli/text cli/yaml cli/scene cli/page cli/run cli/study cli/command)
 # What a library may not see although it stands before it: the scene steps without pictures, the pictures see a body's

@@ -1,0 +1,12 @@
+// Whether surfaces are apart before anything moves: nothing can be kept apart that is not.
+#pragma once
+
+#include "sim/contact/contact_surface.h"
+
+namespace billow::sim {
+
+/// Throws InputError where triangles of `surface` at `x` (N) [m] cross, naming the bodies, how many pairs of faces
+/// cross and the first of them; and where vertices lie inside something rounded.
+void check_apart(const ContactSurface& surface, const Points& x);
+
+}  // namespace billow::sim
