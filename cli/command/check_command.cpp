@@ -4,6 +4,7 @@
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/watched_scene.h"
+#include "cli/scene/contact_text.h"
 #include "cli/scene/filter_text.h"
 #include "cli/scene/simulation.h"
 #include "cli/scene/step_warnings.h"
@@ -24,6 +25,7 @@ int check_command(const SceneOptions& options) {
              scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
              structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
   for (const std::string& line : level_lines(simulation)) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : contact_lines(scene)) fmt::print(stderr, "{}\n", line);
   for (const std::string& warning : step_warnings(structure, choice)) fmt::print(stderr, "warning: {}\n", warning);
   return exit_done;
 }

@@ -39,6 +39,7 @@ Limit limit_of(const sim::MeasuredStep& m) { return {true, m.unlimited ? std::nu
 struct Subject {
   const Scene& scene;
   const Simulation& simulation;
+  const Simulation::Phase& phase;
   sim::State state;  // that the certificates are about
   sim::Linearisation linearisation, any_shape;
   sim::StiffnessMatrix least_damping;   // at any shape
@@ -65,7 +66,7 @@ std::vector<Row> rows_of(const Subject& subject) {
 
 Limit certified(const Subject& subject, const Row& row, const sim::Linearisation& linearisation,
                 const sim::StiffnessMatrix* least_damping) {
-  return limit_of(sim::certified_step({.structure = subject.simulation.structure(),
+  return limit_of(sim::certified_step({.structure = subject.phase.structure,
                                        .linearisation = linearisation,
                                        .position = subject.state.position,
                                        .method = row.method,
@@ -76,8 +77,8 @@ Limit certified(const Subject& subject, const Row& row, const sim::Linearisation
 }
 
 Limit measured(const Subject& subject, const Row& row) {
-  return limit_of(measure_step(subject.scene, subject.simulation, row.method,
-                               row.filtered ? subject.simulation.filter() : std::nullopt, row.certified.step,
+  return limit_of(measure_step(subject.scene, subject.phase, subject.simulation.initial_state(), row.method,
+                               row.filtered ? subject.phase.filter : std::nullopt, row.certified.step,
                                subject.k0.value));
 }
 
@@ -104,34 +105,41 @@ sim::State state_at(const Simulation& simulation, double time) {
   return simulation.make_solver(simulation.choose_step())->sample(time);
 }
 
+// Of a state at rest the phase that leaves the least room: the run has one step for all.
+const Simulation::Phase& phase_for(const Simulation& simulation, double time) {
+  if (time > 0.0 || simulation.phases() == 1) return simulation.phase_at(time);
+  return simulation.phase(simulation.find_limits().phase);
+}
+
 // K and C at the state itself, or at rest, where no spring is taken to be slack.
-sim::Linearisation linearised(const Simulation& simulation, const sim::State& state) {
-  const sim::Forces& forces = simulation.forces();
+sim::Linearisation linearised(const Simulation::Phase& phase, const sim::State& state) {
+  const sim::Forces& forces = phase.forces;
   if (state.time == 0.0) return forces.bound(sim::Shapes::rest).linearisation;
-  sim::Linearisation linearisation(simulation.structure());
+  sim::Linearisation linearisation(phase.structure);
   forces.linearise(state, 1.0, 0.0, sim::JacobianForm::definite, linearisation.stiffness);
   forces.linearise(state, 0.0, 1.0, sim::JacobianForm::definite, linearisation.damping);
   return linearisation;
 }
 
 Subject make_subject(const Scene& scene, const Simulation& simulation, double time) {
-  const sim::Structure& structure = simulation.structure();
+  const Simulation::Phase& phase = phase_for(simulation, time);
+  const sim::Structure& structure = phase.structure;
   const sim::State state = state_at(simulation, time);
-  sim::ForceBound any_shape = simulation.forces().bound(sim::Shapes::any);
-  Subject subject{
-      scene,
-      simulation,
-      state,
-      linearised(simulation, state),
-      std::move(any_shape.linearisation),
-      simulation.forces().least_damping(),
-      std::move(any_shape.unbounded),
-      nullptr,
-      {},
-      {},
-      sim::find_step_setter(structure, simulation.forces().bound(sim::Shapes::rest).linearisation.stiffness)};
+  sim::ForceBound any_shape = phase.forces.bound(sim::Shapes::any);
+  Subject subject{scene,
+                  simulation,
+                  phase,
+                  state,
+                  linearised(phase, state),
+                  std::move(any_shape.linearisation),
+                  phase.forces.least_damping(),
+                  std::move(any_shape.unbounded),
+                  nullptr,
+                  {},
+                  {},
+                  sim::find_step_setter(structure, phase.forces.bound(sim::Shapes::rest).linearisation.stiffness)};
   subject.k0 = sim::max_eigenvalue(structure, subject.linearisation.stiffness);
-  subject.filter = simulation.filter_operator();
+  subject.filter = phase.filter_operator();
   if (!subject.filter) return subject;
   subject.filtered = sim::filtered_eigenvalue(structure, subject.linearisation.stiffness, *subject.filter);
   return subject;
@@ -177,6 +185,7 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
     fmt::print("Algorithm 1: {:.6g} /s² with the scene's {} filter ({} iterations{})\n", subject.filtered->value,
                filter_name(*subject.filter), subject.filtered->iterations,
                subject.filtered->converged ? "" : ", NOT converged");
+  if (subject.phase.begin > 0.0) fmt::print("\nwith the pins that hold from {:g} s on\n", subject.phase.begin);
   fmt::print("\nlargest stable step [ms] at t = {:g} s\n{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}\n", subject.state.time,
              "method", "filter", "paper", "certified", "any shape", has_measured ? "measured" : "");
   for (const Row& row : rows)
@@ -189,8 +198,7 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
       "same for the stiffest that any fold can be. none: no limit found.\n");
   for (const std::string& law : subject.unbounded)
     fmt::print(stderr, "warning: no limit counts {}, which has no bound\n", law);
-  if (subject.setter)
-    fmt::print(stderr, "warning: {}\n", sim::text_of(subject.simulation.structure(), *subject.setter));
+  if (subject.setter) fmt::print(stderr, "warning: {}\n", sim::text_of(subject.phase.structure, *subject.setter));
 }
 
 }  // namespace

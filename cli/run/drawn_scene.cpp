@@ -5,6 +5,8 @@ namespace billow::cli {
 
 DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation) : scene_(scene), simulation_(simulation) {
   for (const BodySpec& body : scene.bodies) skin_.push_back(skin_of(body));
+  const Eigen::AlignedBox3d start = box(simulation.initial_state());
+  for (const ColliderSpec& collider : scene.colliders) collider_.emplace_back(collider, start);
   if (scene.motes > 0) motes_.emplace(scene.motes, simulation.initial_state().position, scene.water.velocity);
 }
 
@@ -12,6 +14,7 @@ std::vector<render::DrawnBody> DrawnScene::bodies() const {
   std::vector<render::DrawnBody> drawn;
   for (std::size_t b = 0; b < skin_.size(); ++b)
     drawn.push_back({skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour});
+  for (const DrawnCollider& collider : collider_) drawn.push_back(collider.drawn());
   if (motes_) drawn.push_back(motes_->drawn());
   return drawn;
 }
@@ -23,17 +26,17 @@ std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) con
     states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
     states.back().position.rowwise() -= path;
   }
+  for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
   if (motes_) states.push_back(motes_->at(state.time, path));
   return states;
 }
 
 Eigen::AlignedBox3d DrawnScene::box(const sim::State& state) const {
   const std::vector<sim::SurfaceState> drawn = surfaces(state);
-  Eigen::AlignedBox3d box;
-  for (std::size_t b = 0; b < skin_.size(); ++b) {
-    box.extend(drawn[b].position.colwise().minCoeff().transpose().cast<double>());
-    box.extend(drawn[b].position.colwise().maxCoeff().transpose().cast<double>());
-  }
+  Eigen::AlignedBox3d bodies;
+  for (std::size_t b = 0; b < skin_.size(); ++b) bodies.extend(box_of(drawn[b]));
+  Eigen::AlignedBox3d box = bodies;
+  for (std::size_t c = 0; c < collider_.size(); ++c) box.extend(collider_[c].framed(drawn[skin_.size() + c], bodies));
   return box;
 }
 

@@ -1,9 +1,10 @@
-// What is drawn of a simulation: its bodies' skins, and the specks in the water around them.
+// What is drawn of a simulation: its bodies' skins, what they collide with, and the specks in the water around them.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "cli/run/drawn_collider.h"
 #include "cli/run/motes.h"
 #include "cli/scene/simulation.h"
 #include "render/frame/mesh_renderer.h"
@@ -16,11 +17,11 @@ class DrawnScene {
   /// Both must outlive this.
   DrawnScene(const Scene& scene, const Simulation& simulation);
 
-  /// The drawn bodies, textures included; motes, where the water has any, come last.
+  /// The drawn bodies, textures included, then the colliders; motes, where the water has any, come last.
   std::vector<render::DrawnBody> bodies() const;
-  /// Where the drawn bodies are at `state`, as the camera sees it: moved along with the body that it follows.
+  /// Where all of those are at `state`, as the camera sees it: moved along with the body that it follows.
   std::vector<sim::SurfaceState> surfaces(const sim::State& state) const;
-  /// The box around them, what drifts in the water left out.
+  /// The box around the bodies and what of the colliders belongs into a picture of them.
   Eigen::AlignedBox3d box(const sim::State& state) const;
 
  private:
@@ -29,6 +30,7 @@ class DrawnScene {
   const Scene& scene_;
   const Simulation& simulation_;
   std::vector<sim::Skin> skin_;
+  std::vector<DrawnCollider> collider_;
   std::optional<Motes> motes_;
 };
 

@@ -7,7 +7,7 @@ namespace billow::cli {
 
 namespace {
 
-using Row = std::array<double, 10>;  // whole numbers of frames are exact in a double up to 2^53
+using Row = std::array<double, 12>;  // whole numbers of frames are exact in a double up to 2^53
 
 Eigen::Vector3d vector_at(const Row& row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
 
@@ -24,7 +24,9 @@ void FrameLog::add(const FrameRecord& record) {
                 p.z(),
                 l.x(),
                 l.y(),
-                l.z()};
+                l.z(),
+                record.stretch.largest,
+                record.stretch.mean};
   spool_.append(row.data(), sizeof row);
   ++size_;
 }
@@ -32,7 +34,7 @@ void FrameLog::add(const FrameRecord& record) {
 FrameRecord FrameLog::at(long index) const {
   Row row;
   spool_.read(row.data(), sizeof row, static_cast<std::size_t>(index) * sizeof row);
-  return {static_cast<long>(row[0]), row[1], row[2], row[3], vector_at(row, 4), vector_at(row, 7)};
+  return {static_cast<long>(row[0]), row[1], row[2], row[3], vector_at(row, 4), vector_at(row, 7), {row[10], row[11]}};
 }
 
 }  // namespace billow::cli

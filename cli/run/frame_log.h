@@ -1,19 +1,21 @@
-// Energy and momentum of every frame of a film, kept out of memory so that a film may have any length.
+// Energy, momentum and stretch of every frame of a film, kept out of memory so that a film may have any length.
 #pragma once
 
 #include <Eigen/Core>
 #include <filesystem>
 
 #include "base/spool.h"
+#include "sim/body/stretch.h"
 
 namespace billow::cli {
 
-/// Energy and momentum at one frame.
+/// What is known of the motion at one frame.
 struct FrameRecord {
   long frame = 0;
   double time = 0.0;                                  // [s]
   double kinetic = 0.0, potential = 0.0;              // [J]
   Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
+  sim::Stretch stretch = {};
 };
 
 /// Records in the order in which they were added; iterate over it as over a vector. Throws OutputError.

@@ -1,8 +1,9 @@
-// State -> energy and momenta.
+// State -> energy, momenta and stretch.
 #include "cli/run/motion_recorder.h"
 
 #include "cli/run/film.h"
 #include "sim/body/momenta.h"
+#include "sim/body/stretch.h"
 
 namespace billow::cli {
 
@@ -15,7 +16,8 @@ FrameRecord record_of(const Simulation& simulation, long frame, const sim::State
           sim::kinetic_energy(structure, state),
           simulation.forces().potential_energy(state),
           sim::linear_momentum(structure, state),
-          sim::angular_momentum(structure, state)};
+          sim::angular_momentum(structure, state),
+          sim::stretch_of(structure, state)};
 }
 
 }  // namespace

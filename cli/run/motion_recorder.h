@@ -1,4 +1,4 @@
-// Energy and momentum of every drawn frame.
+// Energy, momentum and stretch of every drawn frame.
 #pragma once
 
 #include "cli/run/recorder.h"

@@ -12,8 +12,10 @@ ResponseRecorder::ResponseRecorder(const RecorderSetting& setting, FilmReport& r
 
 void ResponseRecorder::add(double time, const sim::State& state) {
   if (!frames_.take(time)) return;
-  const sim::FilteredShare share = sim::filtered_share(simulation_.structure(), *simulation_.filter_operator(),
-                                                       state.position, state.time, state.velocity, scratch_);
+  const Simulation::Phase& phase = simulation_.phase_at(state.time);
+  if (!phase.filter_operator()) return;  // levels that are not needed once pins have let go
+  const sim::FilteredShare share = sim::filtered_share(phase.structure, *phase.filter_operator(), state.position,
+                                                       state.time, state.velocity, scratch_);
   sum_.passed += share.passed, sum_.whole += share.whole;
 }
 

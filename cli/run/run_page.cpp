@@ -87,6 +87,12 @@ std::string plots(const RunPage& page, const TimeAxis& axis) {
                     axis.begin,
                     axis.end,
                     {line("x", "x", angular_x), line("y", "y", angular_y), line("z", "z", angular_z)},
+                    page.series.exact()}) +
+         line_plot({"Stretch",
+                    "of structural springs, rest lengths",
+                    axis.begin,
+                    axis.end,
+                    {line("largest", "1", largest_stretch), line("mean", "2", mean_stretch)},
                     page.series.exact()});
 }
 

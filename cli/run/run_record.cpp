@@ -88,7 +88,9 @@ Json frame_record(const FrameRecord& f) {
           {"kinetic_energy", f.kinetic},
           {"potential_energy", f.potential},
           {"linear_momentum", list(f.linear_momentum)},
-          {"angular_momentum", list(f.angular_momentum)}};
+          {"angular_momentum", list(f.angular_momentum)},
+          {"largest_stretch", f.stretch.largest},
+          {"mean_stretch", f.stretch.mean}};
 }
 
 // The phases, which follow one another and add up to `wall`, and the stages that share "render".

@@ -7,10 +7,19 @@ namespace billow::cli {
 
 namespace {
 
-std::array<double, 9> quantities_of(const FrameRecord& record) {
+std::array<double, 11> quantities_of(const FrameRecord& record) {
   const Eigen::Vector3d &p = record.linear_momentum, &l = record.angular_momentum;
-  return {record.kinetic, record.potential, record.kinetic + record.potential, p.x(), p.y(), p.z(), l.x(), l.y(),
-          l.z()};
+  return {record.kinetic,
+          record.potential,
+          record.kinetic + record.potential,
+          p.x(),
+          p.y(),
+          p.z(),
+          l.x(),
+          l.y(),
+          l.z(),
+          record.stretch.largest,
+          record.stretch.mean};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Energy and momentum over a run of any length, kept small enough to plot.
+// Energy, momentum and stretch over a run of any length, kept small enough to plot.
 #pragma once
 
 #include <array>
@@ -21,6 +21,8 @@ enum class Quantity {
   angular_x,
   angular_y,
   angular_z,
+  largest_stretch,
+  mean_stretch,
 };
 
 /// Takes frame after frame in bounded memory. Up to 1,000 frames are kept as they are; of more, neighbours are merged
@@ -43,7 +45,7 @@ class RunSeries {
   long last_frame() const { return last_frame_; }
 
  private:
-  static constexpr int quantities = 9;
+  static constexpr int quantities = 11;
   struct Group {
     std::array<PlotPoint, quantities> low, high;
   };

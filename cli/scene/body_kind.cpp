@@ -40,4 +40,16 @@ const sim::Mesh& particle_mesh(const BodySpec& body) {
   return std::visit([&](const auto& kind) -> const sim::Mesh& { return kind.particle_mesh(body); }, body.kind);
 }
 
+std::optional<double> most_strain(const BodySpec& body) {
+  return std::visit([](const auto& kind) { return kind.most_strain(); }, body.kind);
+}
+
+ContactSpec contact_by_kind(const BodySpec& body) {
+  return std::visit([](const auto& kind) { return kind.contact_by_kind(); }, body.kind);
+}
+
+sim::Mesh touching_mesh(const BodySpec& body) {
+  return std::visit([&](const auto& kind) { return kind.touching_mesh(body); }, body.kind);
+}
+
 }  // namespace billow::cli

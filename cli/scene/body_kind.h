@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/words.h"
+#include "cli/scene/fabric.h"
 #include "sim/body/cloth.h"
 #include "sim/body/fish.h"
 #include "sim/body/fish_motion.h"
@@ -21,6 +22,7 @@ namespace billow::cli {
 
 struct BodyDraft;
 struct BodySpec;
+struct ContactSpec;
 struct Scene;
 class MapReader;
 
@@ -38,16 +40,25 @@ struct BodyRows {
 struct MeshBody {
   std::optional<double> max_eigenvalue;  // [1/s^2] scales all stiffnesses so that lambda_max(M^-1 K) at rest is this
 
-  void add_laws(const Scene&, const sim::Structure&, int, sim::Forces&) const {}
+  /// What blows on it.
+  void add_laws(const Scene& scene, const sim::Structure& structure, int body, sim::Forces& forces) const;
   sim::Skin skin(const BodySpec& body) const;
   BodyRows rows(const BodySpec& body, StripOrder order) const;
   const sim::Mesh& particle_mesh(const BodySpec& body) const;
+  sim::Mesh touching_mesh(const BodySpec& body) const;
 };
 
 struct ClothSpec : MeshBody {
   sim::ClothOptions options;
+  std::optional<Fabric> fabric;        // what the scene leaves to it goes by the mesh:
+  bool mass_of_fabric = false;         //   its area,
+  bool bend_of_fabric = false;         //   and the length of its edges,
+  bool buckling_of_fabric = false;     //   as well
+  std::optional<double> strain_limit;  // [rest lengths] of structural and shear springs
 
   bool takes_spectrum() const { return true; }
+  std::optional<double> most_strain() const { return strain_limit; }
+  ContactSpec contact_by_kind() const;
   void place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body);
   sim::Structure build(const BodySpec& body) const;
 };
@@ -56,6 +67,8 @@ struct SoftSpec : MeshBody {
   sim::SoftBodyOptions options;
 
   bool takes_spectrum() const { return false; }
+  std::optional<double> most_strain() const { return std::nullopt; }
+  ContactSpec contact_by_kind() const;
   void place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body);
   sim::Structure build(const BodySpec& body) const;
 };
@@ -66,12 +79,15 @@ struct FishSpec {
   double buoyancy = 1.0;  // share of the weight that the water carries
 
   bool takes_spectrum() const { return false; }
+  std::optional<double> most_strain() const { return std::nullopt; }
+  ContactSpec contact_by_kind() const;
   void place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body);
   sim::Structure build(const BodySpec& body) const;
   void add_laws(const Scene& scene, const sim::Structure& structure, int body, sim::Forces& forces) const;
   sim::Skin skin(const BodySpec& body) const;
   BodyRows rows(const BodySpec& body, StripOrder order) const;
   const sim::Mesh& particle_mesh(const BodySpec& body) const;
+  sim::Mesh touching_mesh(const BodySpec& body) const;
 };
 
 using BodyKind = std::variant<ClothSpec, SoftSpec, FishSpec>;
@@ -102,5 +118,11 @@ BodyRows rows_of(const BodySpec& body, StripOrder order);
 bool takes_spectrum(const BodySpec& body);
 /// The mesh whose vertices are its particles; an empty one for bodies that are only dressed in theirs.
 const sim::Mesh& particle_mesh(const BodySpec& body);
+/// [rest lengths] by which its structural and shear springs may be stretched, where that is limited.
+std::optional<double> most_strain(const BodySpec& body);
+/// How it touches where the scene does not say.
+ContactSpec contact_by_kind(const BodySpec& body);
+/// Its particles at rest and the faces between them that touch others.
+sim::Mesh touching_mesh(const BodySpec& body);
 
 }  // namespace billow::cli

@@ -115,6 +115,16 @@ void read_fish(MapReader& body, const std::filesystem::path& folder, BodyDraft& 
   draft.spec.kind = std::move(fish);
 }
 
+ContactSpec FishSpec::contact_by_kind() const { return {.self = false}; }
+
+// Without what it is dressed in, which may stand out between its particles.
+sim::Mesh FishSpec::touching_mesh(const BodySpec&) const {
+  sim::Mesh mesh;
+  mesh.position = sim::build_fish(options).rest_position;
+  mesh.face = sim::fish_faces();
+  return mesh;
+}
+
 void FishSpec::place(const sim::Mesh& mesh, const BodyDraft&, BodySpec& body) { body.mesh = mesh; }
 
 sim::Structure FishSpec::build(const BodySpec&) const { return sim::build_fish(options); }

@@ -5,10 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
+#include <map>
 #include <numeric>
 
+#include "cli/scene/motion_reader.h"
 #include "cli/scene/scene_keys.h"
+#include "cli/scene/scene_pins.h"
 #include "sim/drawn/particle_order.h"
 #include "sim/limit/stiffness_scale.h"
 
@@ -22,39 +24,6 @@ KindMap kind_map(MapReader& body, std::string_view key) {
 }
 
 namespace {
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
-// [x, y, z] in degrees: about the fixed axes, x first, then y, then z.
-Eigen::Matrix3d rotation_about_axes(const Eigen::Vector3d& degrees) {
-  const auto about = [&](int axis) {
-    return Eigen::AngleAxisd(radians(degrees(axis)), Eigen::Vector3d::Unit(axis)).toRotationMatrix();
-  };
-  return about(2) * about(1) * about(0);
-}
-
-Eigen::Matrix3d read_axis_angle(MapReader& map) {
-  map.require("axis");
-  const Eigen::Vector3d axis = map.vector("axis", Eigen::Vector3d::Zero());
-  const double angle = map.number("angle");
-  if (axis.norm() < 1e-12) fail_at(map.where("axis"), "axis has no direction: its length is 0");
-  return Eigen::AngleAxisd(radians(angle), axis.normalized()).toRotationMatrix();
-}
-
-Eigen::Matrix3d read_rotation(MapReader& transform, const Section& axis_angle) {
-  const Node* node = transform.find("rotate");
-  if (!node || node->kind != Node::Kind::map)
-    return rotation_about_axes(transform.vector("rotate", Eigen::Vector3d::Zero()));
-  MapReader map = transform.map("rotate", axis_angle);
-  return read_axis_angle(map);
-}
-
-void read_transform(KindMap& kind, BodyDraft& draft) {
-  MapReader map = kind.submap("transform");
-  draft.scale = map.number("scale", draft.scale);
-  draft.rotation = read_rotation(map, kind.section("transform.rotate"));
-  draft.translation = map.vector("translate", draft.translation);
-}
 
 sim::VertexList read_vertices(MapReader& pin) {
   sim::VertexList list;
@@ -78,18 +47,44 @@ Eigen::AlignedBox3d read_box(MapReader& pin) {
   return box;
 }
 
+sim::Selector read_selector(MapReader& pin, std::string_view key) {
+  if (key == "corner") return pin.choice("corner", sim::Corner::top_left);
+  if (key == "vertices") return read_vertices(pin);
+  if (key == "box") return read_box(pin);
+  return sim::GroupName{pin.text("group")};
+}
+
+// A scene that starts with its pins elsewhere would begin with a blow.
+std::vector<sim::PlaceKey> read_pin_motion(MapReader& pin) {
+  std::vector<sim::PlaceKey> keys = read_place_keys(pin, "motion");
+  if (!keys.empty() && !(keys[0].translation.isZero(0.0) && keys[0].rotation.isZero(0.0)))
+    fail_at(pin.where("motion"),
+            "a pin starts where the mesh has it, so the first key of its motion says a time and neither translate nor "
+            "rotate");
+  return keys;
+}
+
+std::optional<Eigen::Vector3d> read_pivot(MapReader& pin) {
+  const Node* node = pin.find("pivot");
+  if (node && !is_word(*node, "mean")) return pin.vector("pivot", Eigen::Vector3d::Zero());
+  pin.record("pivot", make_scalar("mean"));
+  return std::nullopt;
+}
+
 PinDraft read_pin(const Node& node, const Section& section, const NodePtr& record) {
   MapReader pin(node, section, record);
-  if (node.entries.size() != 1)
-    fail_at(node.where,
-            fmt::format("a pin has one key, corner, vertices, box or group; this one has {}", node.entries.size()));
-  const std::string& key = node.entries[0].key;
+  std::vector<std::string_view> selectors;
+  for (const std::string_view key : {"corner", "vertices", "box", "group"})
+    if (pin.find(key)) selectors.push_back(key);
+  if (selectors.size() != 1)
+    fail_at(node.where, fmt::format("a pin has one of the keys corner, vertices, box and group; this one has {}",
+                                    selectors.size()));
   PinDraft draft;
-  draft.where = pin.where(key);
-  if (key == "corner") draft.selector = pin.choice("corner", sim::Corner::top_left);
-  if (key == "vertices") draft.selector = read_vertices(pin);
-  if (key == "box") draft.selector = read_box(pin);
-  if (key == "group") draft.selector = sim::GroupName{pin.text("group")};
+  draft.where = pin.where(selectors[0]);
+  draft.selector = read_selector(pin, selectors[0]);
+  draft.motion = read_pin_motion(pin);
+  draft.pivot = read_pivot(pin);
+  draft.until = pin.number_or_word("until");
   return draft;
 }
 
@@ -110,11 +105,16 @@ void read_pins(KindMap& kind, BodyDraft& draft) {
 void read_mesh(KindMap& kind, const std::filesystem::path& folder, BodyDraft& draft) {
   draft.spec.mesh_file = folder / kind.map.text("mesh");
   draft.spec.mesh_where = kind.map.where("mesh");
-  read_transform(kind, draft);
+  MapReader transform = kind.submap("transform");
+  draft.placement = read_placement(transform, kind.section("transform.rotate"));
 }
 
 void read_mass(KindMap& kind, sim::ClothOptions& options) {
   options.mass = kind.map.number("mass", options.mass);
+  read_mass_distribution(kind, options);
+}
+
+void read_mass_distribution(KindMap& kind, sim::ClothOptions& options) {
   options.mass_by_area = kind.map.word("mass_distribution", options.mass_by_area ? "area" : "uniform") == "area";
 }
 
@@ -136,26 +136,57 @@ void read_start(KindMap& kind, BodyDraft& draft) {
   read_pins(kind, draft);
 }
 
-sim::Mesh placed(const sim::Mesh& mesh, const BodyDraft& draft) {
-  return sim::transformed(mesh, draft.rotation, draft.scale, draft.translation);
+sim::Mesh placed(const sim::Mesh& mesh, const BodyDraft& draft) { return placed(mesh, draft.placement); }
+
+namespace {
+
+Eigen::Vector3d mean_position(const sim::Mesh& mesh, const std::vector<int>& vertices) {
+  return mesh.position(vertices, Eigen::all).colwise().mean().transpose();
 }
 
-std::vector<int> pinned_vertices(const sim::Mesh& mesh, const BodyDraft& draft) {
-  std::vector<int> pinned;
-  for (const PinDraft& pin : draft.pins) {
-    const auto selected = located(pin.where, [&] { return sim::select_vertices(mesh, pin.selector); });
-    pinned.insert(pinned.end(), selected.begin(), selected.end());
-  }
-  std::sort(pinned.begin(), pinned.end());
-  pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
-  if (pinned.size() == static_cast<std::size_t>(mesh.vertices()))
+PinSpec placed_pin(const sim::Mesh& mesh, const PinDraft& draft) {
+  PinSpec pin;
+  pin.vertices = located(draft.where, [&] { return sim::select_vertices(mesh, draft.selector); });
+  std::sort(pin.vertices.begin(), pin.vertices.end());
+  pin.vertices.erase(std::unique(pin.vertices.begin(), pin.vertices.end()), pin.vertices.end());
+  pin.motion = sim::KeyedMotion(draft.motion, draft.pivot ? *draft.pivot : mean_position(mesh, pin.vertices));
+  pin.until = draft.until;
+  return pin;
+}
+
+// Any number of pins may hold a vertex, as long as none moves it.
+void check_only_one_moves(const std::vector<PinSpec>& pins, const std::vector<PinDraft>& drafts) {
+  std::map<int, std::size_t> holder;  // the first pin of each vertex
+  for (std::size_t p = 0; p < pins.size(); ++p)
+    for (const int v : pins[p].vertices) {
+      const std::size_t other = holder.try_emplace(v, p).first->second;
+      if (other != p && (pins[p].motion.moves() || pins[other].motion.moves()))
+        fail_at(drafts[p].where, fmt::format("vertex {} is already held by the pin at {}, and one of the two moves it",
+                                             v, drafts[other].where));
+    }
+}
+
+}  // namespace
+
+std::vector<PinSpec> placed_pins(const sim::Mesh& mesh, const BodyDraft& draft) {
+  std::vector<PinSpec> pins;
+  for (const PinDraft& pin : draft.pins) pins.push_back(placed_pin(mesh, pin));
+  check_only_one_moves(pins, draft.pins);
+  if (held_vertices(pins, 0.0).size() == static_cast<std::size_t>(mesh.vertices()))
     fail_at(draft.pins_where, "the pins hold every vertex, so nothing of the body can move");
-  return pinned;
+  return pins;
 }
 
 sim::Structure scaled(sim::Structure structure, const MeshBody& body) {
   if (body.max_eigenvalue) sim::scale_stiffness(structure, *body.max_eigenvalue);
   return structure;
+}
+
+void MeshBody::add_laws(const Scene& scene, const sim::Structure& structure, int body, sim::Forces& forces) const {
+  if (!scene.wind) return;
+  const auto number = static_cast<std::size_t>(body);
+  forces.add(std::make_unique<sim::WindForce>(structure, *scene.wind, scene.bodies[number].mesh.face,
+                                              structure.body[number].first_particle));
 }
 
 sim::Skin MeshBody::skin(const BodySpec& body) const { return {sim::build_surface(body.mesh)}; }
@@ -172,5 +203,7 @@ BodyRows MeshBody::rows(const BodySpec& body, StripOrder order) const {
 }
 
 const sim::Mesh& MeshBody::particle_mesh(const BodySpec& body) const { return body.mesh; }
+
+sim::Mesh MeshBody::touching_mesh(const BodySpec& body) const { return body.mesh; }
 
 }  // namespace billow::cli

@@ -26,6 +26,8 @@ KindMap kind_map(MapReader& body, std::string_view key);
 void read_mesh(KindMap& kind, const std::filesystem::path& folder, BodyDraft& draft);
 /// mass: and mass_distribution:.
 void read_mass(KindMap& kind, sim::ClothOptions& options);
+/// mass_distribution: alone.
+void read_mass_distribution(KindMap& kind, sim::ClothOptions& options);
 /// structural:, shear: and bend: of a map of stiffnesses.
 void read_surface_springs(MapReader& stiffness, sim::ClothOptions& options);
 /// damping:.
@@ -35,8 +37,8 @@ void read_start(KindMap& kind, BodyDraft& draft);
 
 /// The mesh where the draft puts it.
 sim::Mesh placed(const sim::Mesh& mesh, const BodyDraft& draft);
-/// The vertices that the draft's pins hold, ascending. Throws InputError located at a pin.
-std::vector<int> pinned_vertices(const sim::Mesh& mesh, const BodyDraft& draft);
+/// The draft's pins on the mesh where it is placed. Throws InputError located at a pin.
+std::vector<PinSpec> placed_pins(const sim::Mesh& mesh, const BodyDraft& draft);
 /// The structure with all its stiffnesses scaled, where the body has a highest eigenvalue.
 sim::Structure scaled(sim::Structure structure, const MeshBody& body);
 

@@ -12,8 +12,11 @@
 #include "render/image/image.h"
 #include "render/image/settings.h"
 #include "render/image/spectrum.h"
+#include "sim/body/keyed_motion.h"
+#include "sim/contact/contact_options.h"
 #include "sim/filter/filter.h"
 #include "sim/force/water_force.h"
+#include "sim/force/wind_force.h"
 #include "sim/mesh/mesh.h"
 #include "sim/step/schemes.h"
 
@@ -36,17 +39,45 @@ struct SolverSpec {
   std::string filter_where;       // place in the scene of what the filter's faults are, lambda's or the ratio's
 };
 
+/// What the scene holds by one pin.
+struct PinSpec {
+  std::vector<int> vertices;    // ascending
+  sim::KeyedMotion motion;      // that carries them along, from where the mesh has them
+  std::optional<double> until;  // [s] > 0 when it lets go; none: never
+};
+
+/// What something is drawn with.
+struct Look {
+  std::filesystem::path texture_file;  // empty: plain colour
+  std::string texture_where;           // its place in the scene, for messages
+  render::Image texture;
+  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB
+};
+
+/// How a body touches others and itself.
+struct ContactSpec {
+  bool self = true;
+  std::optional<double> thickness = {};  // [m]; none: by its mesh
+  double friction = 0.3;                 // Coulomb's, of it against its like
+};
+
 /// One body of the scene, its mesh already imported.
-struct BodySpec {
+struct BodySpec : Look {
   std::string name;
   std::filesystem::path mesh_file;  // empty: a fish without a drawn skin
   std::string mesh_where;           // place of the mesh in the scene, for messages
   sim::Mesh mesh;                   // where the body is, or what a fish is dressed in
   BodyKind kind;
+  std::vector<PinSpec> pins;
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
-  std::filesystem::path texture_file;                          // empty: plain colour
-  render::Image texture;
-  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB
+  std::optional<ContactSpec> contact;                          // none: it passes through everything
+};
+
+/// Something that bodies touch and cannot move.
+struct ColliderSpec : Look {
+  sim::Collider solid;
+  std::filesystem::path mesh_file;  // empty: a shape that the scene describes
+  std::string mesh_where;
 };
 
 struct StripSpec {
@@ -68,9 +99,12 @@ struct Scene {
   double duration = 10.0;                    // [s] > 0
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};  // [m/s^2]
   std::vector<BodySpec> bodies;
-  sim::Water water;             // around the fish
-  int motes = 0;                // drawn specks that drift in it
-  std::optional<int> followed;  // the body that the camera stays beside
+  std::vector<ColliderSpec> colliders;
+  std::optional<sim::ContactOptions> contact;  // of bodies, colliders and, last, the ground; none: nothing touches
+  sim::Water water;                            // around the fish
+  int motes = 0;                               // drawn specks that drift in it
+  std::optional<sim::Wind> wind;               // on cloths and soft bodies
+  std::optional<int> followed;                 // the body that the camera stays beside
   SolverSpec solver;
   render::Settings render;
   std::optional<StripSpec> strip;

@@ -10,16 +10,6 @@ namespace {
 
 constexpr std::size_t max_name_length = 64;
 
-// A name must be usable in -D paths, where an index can stand in its place.
-void check_name(const std::string& name, const std::string& where) {
-  const bool digits_only = name.find_first_not_of("0123456789") == std::string::npos;
-  const bool awkward = name.find_first_of(". \t\r\n=/\\") != std::string::npos;
-  if (digits_only || awkward || name.size() > max_name_length)
-    fail_at(where, fmt::format("the name '{}' will not do: up to {} characters, no blanks, none of . = / \\, "
-                               "and not digits alone",
-                               name.substr(0, max_name_length), max_name_length));
-}
-
 const BodyKindRow& kind_of(const MapReader& body) {
   const BodyKindRow* kind = nullptr;
   for (const BodyKindRow& row : body_kinds) {
@@ -38,13 +28,24 @@ const BodyKindRow& kind_of(const MapReader& body) {
   return *kind;
 }
 
-void read_texture(MapReader& body, const std::filesystem::path& folder, BodyDraft& draft) {
-  const std::string texture = body.text("texture", "none");
-  draft.texture_where = body.where("texture");
-  if (texture != "none") draft.spec.texture_file = folder / texture;
+}  // namespace
+
+// A name must be usable in -D paths, where an index can stand in its place.
+void check_name(const std::string& name, const std::string& where) {
+  const bool digits_only = name.find_first_not_of("0123456789") == std::string::npos;
+  const bool awkward = name.find_first_of(". \t\r\n=/\\") != std::string::npos;
+  if (digits_only || awkward || name.size() > max_name_length)
+    fail_at(where, fmt::format("the name '{}' will not do: up to {} characters, no blanks, none of . = / \\, "
+                               "and not digits alone",
+                               name.substr(0, max_name_length), max_name_length));
 }
 
-}  // namespace
+void read_look(MapReader& map, const std::filesystem::path& folder, Look& look) {
+  const std::string texture = map.text("texture", "none");
+  look.texture_where = map.where("texture");
+  if (texture != "none") look.texture_file = folder / texture;
+  look.colour = read_colour(map, "colour", look.colour);
+}
 
 BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record) {
   MapReader map(node, keys::section("bodies[]"), record);
@@ -52,8 +53,8 @@ BodyDraft read_body(const Node& node, int index, const std::filesystem::path& fo
   draft.spec.name = map.text("name", fmt::format("body_{}", index));
   check_name(draft.spec.name, map.where("name"));
   kind_of(map).read(map, folder, draft);
-  read_texture(map, folder, draft);
-  draft.spec.colour = read_colour(map, "colour", draft.spec.colour);
+  read_contact(map, draft);
+  read_look(map, folder, draft.spec);
   return draft;
 }
 

@@ -21,7 +21,9 @@ const Section scene{"the scene",
                      {"duration", above_0(1e5, "s")},
                      {"gravity", within(1e4, "m/s²")},
                      {"bodies"},
+                     {"colliders"},
                      {"water"},
+                     {"wind", {}, {"none"}},
                      {"solver"},
                      {"render"},
                      {"strip", {}, {"none"}},
@@ -31,20 +33,26 @@ const Section scene{"the scene",
 std::vector<Key> body_keys() {
   std::vector<Key> keys = {{"name"}};
   for (const BodyKindRow& kind : body_kinds) keys.push_back({kind.key});
-  keys.insert(keys.end(), {{"texture", {}, {"none"}}, {"colour", between(0, 1)}});
+  keys.insert(keys.end(), {{"contact", {}, {"none"}}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}});
   return keys;
 }
 
 const Section body{"body", body_keys()};
 
+const Section contact{
+    "contact",
+    {{"self", {}, {"true", "false"}}, {"thickness", above_0(1, "m"), {"auto"}}, {"friction", between(0, 100)}}};
+
 const Section cloth{"cloth",
                     {{"mesh"},
                      {"transform"},
-                     {"mass", above_0(1e6, "kg")},
+                     {"fabric", {}, fabric_words()},
+                     {"mass", above_0(1e6, "kg"), {"fabric"}},
                      {"mass_distribution", {}, {"area", "uniform"}},
                      {"model", {}, all_words<sim::SpringModel>()},
                      {"stiffness"},
-                     {"buckling_rigidity", at_least_0(1e6, "N m²")},
+                     {"buckling_rigidity", at_least_0(1e6, "N m²"), {"fabric"}},
+                     {"strain_limit", above_0(10), {"none"}},
                      {"damping"},
                      {"velocity", within(1e4, "m/s")},
                      {"pins"}}};
@@ -52,7 +60,7 @@ const Section cloth{"cloth",
 const Section stiffness{"stiffness",
                         {{"structural", above_0(1e12, "N/m")},
                          {"shear", at_least_0(1e12, "N/m")},
-                         {"bend", at_least_0(1e12, "N/m")},
+                         {"bend", at_least_0(1e12, "N/m"), {"fabric"}},
                          {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
 
 const Section damping{"damping",
@@ -60,9 +68,17 @@ const Section damping{"damping",
                        {"coefficient", at_least_0(1e9, "N s/m")},
                        {"friction", at_least_0(1e9, "kg/s")}}};
 
-const Section pin{
-    "pin",
-    {{"corner", {}, all_words<sim::Corner>()}, {"vertices", at_least_0(1e9)}, {"box", within(1e6, "m")}, {"group"}}};
+const Section pin{"pin",
+                  {{"corner", {}, all_words<sim::Corner>()},
+                   {"vertices", at_least_0(1e9)},
+                   {"box", within(1e6, "m")},
+                   {"group"},
+                   {"motion"},
+                   {"pivot", within(1e6, "m"), {"mean"}},
+                   {"until", above_0(1e5, "s"), {"none"}}}};
+
+const Section place_key{
+    "the key", {{"time", between(0, 1e5, "s")}, {"translate", within(1e6, "m")}, {"rotate", within(36000, "degrees")}}};
 
 const Section transform{
     "transform", {{"scale", above_0(1e6)}, {"rotate", within(3600, "degrees")}, {"translate", within(1e6, "m")}}};
@@ -119,9 +135,52 @@ const Section motion_key{"the key",
                           {"turn", between(-1, 1)},
                           {"frequency", above_0(1e3, "1/s")}}};
 
+const Section collider{"collider",
+                       {{"name"},
+                        {"plane"},
+                        {"sphere"},
+                        {"capsule"},
+                        {"cylinder"},
+                        {"box"},
+                        {"mesh"},
+                        {"thickness", above_0(1, "m")},
+                        {"friction", between(0, 100)},
+                        {"motion"},
+                        {"pivot", within(1e6, "m"), {"centre"}},
+                        {"texture", {}, {"none"}},
+                        {"colour", between(0, 1)}}};
+
+const Section plane{"plane", {{"height", within(1e6, "m")}, {"point", within(1e6, "m")}, {"normal", within(1e6)}}};
+
+const Section sphere{"sphere", {{"centre", within(1e6, "m")}, {"radius", above_0(1e5, "m")}}};
+
+const Section capsule{"capsule", {{"from", within(1e6, "m")}, {"to", within(1e6, "m")}, {"radius", above_0(1e5, "m")}}};
+
+const Section cylinder{"cylinder",
+                       {{"from", within(1e6, "m")}, {"to", within(1e6, "m")}, {"radius", above_0(1e5, "m")}}};
+
+const Section box{"box",
+                  {{"centre", within(1e6, "m")}, {"size", above_0(1e5, "m")}, {"rotate", within(3600, "degrees")}}};
+
+const Section mesh{"mesh", {{"file"}, {"transform"}}};
+
 const Section water{
     "water",
     {{"resistance", at_least_0(1e9, "kg/(m² s)")}, {"current", within(1e4, "m/s")}, {"motes", between(0, 10000)}}};
+
+const Section wind{"wind",
+                   {{"velocity", within(1e4, "m/s")},
+                    {"gusts", {}, {"none"}},
+                    {"drag", at_least_0(1e3)},
+                    {"lift", at_least_0(1e3)},
+                    {"density", at_least_0(1e5, "kg/m³")},
+                    {"quadratic_to", above_0(1e5, "m/s"), {"auto"}}}};
+
+const Section gusts{"gusts",
+                    {{"strength", between(0, 10)},
+                     {"period", above_0(1e5, "s")},
+                     {"length", above_0(1e6, "m"), {"auto"}},
+                     {"seed", between(0, 1e9)}}};
 
 const Section solver{"solver",
                      {{"method", {}, all_words<sim::Method>()},
@@ -163,6 +222,12 @@ const Section camera{"camera",
                       {"fov", between(1, 170, "degrees")},
                       {"follow"}}};
 
+const Section ground{"ground",
+                     {{"height", within(1e6, "m")},
+                      {"collide", {}, {"true", "false"}},
+                      {"thickness", above_0(1, "m")},
+                      {"friction", between(0, 100)}}};
+
 const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
 
 const Section strip{"strip", {{"step", above_0(1e5, "s")}, {"order", {}, all_words<StripOrder>()}}};
@@ -179,12 +244,14 @@ const Section spectrum{"spectrum",
 const std::vector<PlacedSection>& all() {
   static const std::vector<PlacedSection> sections{{"", &scene},
                                                    {"bodies[]", &body},
+                                                   {"bodies[].contact", &contact},
                                                    {"bodies[].cloth", &cloth},
                                                    {"bodies[].cloth.transform", &transform},
                                                    {"bodies[].cloth.transform.rotate", &axis_angle},
                                                    {"bodies[].cloth.stiffness", &stiffness},
                                                    {"bodies[].cloth.damping", &damping},
                                                    {"bodies[].cloth.pins[]", &pin},
+                                                   {"bodies[].cloth.pins[].motion[]", &place_key},
                                                    {"bodies[].soft", &soft},
                                                    {"bodies[].soft.transform", &transform},
                                                    {"bodies[].soft.transform.rotate", &axis_angle},
@@ -192,16 +259,31 @@ const std::vector<PlacedSection>& all() {
                                                    {"bodies[].soft.variation", &variation},
                                                    {"bodies[].soft.damping", &damping},
                                                    {"bodies[].soft.pins[]", &pin},
+                                                   {"bodies[].soft.pins[].motion[]", &place_key},
                                                    {"bodies[].fish", &fish},
                                                    {"bodies[].fish.mass", &fish_mass},
                                                    {"bodies[].fish.stiffness", &fish_stiffness},
                                                    {"bodies[].fish.motion", &motion},
                                                    {"bodies[].fish.motion.keys[]", &motion_key},
+                                                   {"colliders[]", &collider},
+                                                   {"colliders[].plane", &plane},
+                                                   {"colliders[].sphere", &sphere},
+                                                   {"colliders[].capsule", &capsule},
+                                                   {"colliders[].cylinder", &cylinder},
+                                                   {"colliders[].box", &box},
+                                                   {"colliders[].box.rotate", &axis_angle},
+                                                   {"colliders[].mesh", &mesh},
+                                                   {"colliders[].mesh.transform", &transform},
+                                                   {"colliders[].mesh.transform.rotate", &axis_angle},
+                                                   {"colliders[].motion[]", &place_key},
                                                    {"water", &water},
+                                                   {"wind", &wind},
+                                                   {"wind.gusts", &gusts},
                                                    {"solver", &solver},
                                                    {"solver.filter", &filter},
                                                    {"render", &render},
                                                    {"render.camera", &camera},
+                                                   {"render.ground", &ground},
                                                    {"render.background", &background},
                                                    {"strip", &strip},
                                                    {"spectrum", &spectrum}};

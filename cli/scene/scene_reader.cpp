@@ -23,23 +23,49 @@ void read_version(MapReader& map) {
   map.integer("billow");
 }
 
-std::vector<BodyDraft> read_bodies(MapReader& scene, const std::filesystem::path& folder) {
+/// By which bodies and colliders are told apart.
+class Names {
+ public:
+  /// `kind` is what a message calls a second one of that name.
+  void add(const std::string& name, const std::string& where, std::string_view kind) {
+    const auto [first, fresh] = first_.try_emplace(name, where);
+    if (!fresh) fail_at(where, fmt::format("a second {} named '{}'; the first is at {}", kind, name, first->second));
+  }
+
+ private:
+  std::map<std::string, std::string> first_;  // where each stands
+};
+
+std::string place_of_name(const Node& item) {
+  const Entry* given = item.find("name");
+  return given ? given->value->where : item.where;
+}
+
+std::vector<BodyDraft> read_bodies(MapReader& scene, const std::filesystem::path& folder, Names& names) {
   const Node& node = scene.require("bodies");
   std::vector<BodyDraft> drafts;
   std::vector<NodePtr> records;
-  std::map<std::string, std::string> first_place;
   for (const NodePtr& item : read_list(node, "bodies")) {
     records.push_back(make_map());
     drafts.push_back(read_body(*item, static_cast<int>(drafts.size()), folder, records.back()));
-    const std::string& name = drafts.back().spec.name;
-    const Entry* given = item->find("name");
-    const auto [first, fresh] = first_place.try_emplace(name, given ? given->value->where : item->where);
-    if (!fresh)
-      fail_at(given ? given->value->where : item->where,
-              fmt::format("a second body named '{}'; the first is at {}", name, first->second));
+    names.add(drafts.back().spec.name, place_of_name(*item), "body");
   }
   if (drafts.empty()) fail_at(node.where, "bodies is empty: a scene needs at least one body");
   scene.record("bodies", make_list(std::move(records)));
+  return drafts;
+}
+
+std::vector<ColliderDraft> read_colliders(MapReader& scene, const std::filesystem::path& folder, Names& names) {
+  std::vector<ColliderDraft> drafts;
+  std::vector<NodePtr> records;
+  if (const Node* node = scene.find("colliders")) {
+    for (const NodePtr& item : read_list(*node, "colliders")) {
+      records.push_back(make_map());
+      drafts.push_back(read_collider(*item, static_cast<int>(drafts.size()), folder, records.back()));
+      names.add(drafts.back().spec.solid.name, place_of_name(*item), "body or collider");
+    }
+  }
+  scene.record("colliders", make_list(std::move(records)));
   return drafts;
 }
 
@@ -55,15 +81,19 @@ std::string_view bytes_of(const Value* values, std::size_t count) {
 }
 
 // The geometry goes in beside the mesh file's bytes, because a glTF keeps it in a second file.
+void add_files(Hash& hash, const std::filesystem::path& mesh_file, const sim::Mesh& mesh, const Look& look) {
+  if (!mesh_file.empty()) hash.add_file(mesh_file);
+  hash.add(bytes_of(mesh.position.data(), static_cast<std::size_t>(mesh.position.size())));
+  hash.add(bytes_of(mesh.face.data(), mesh.face.size()));
+  if (!look.texture_file.empty()) hash.add_file(look.texture_file);
+}
+
 std::string fingerprint(const Scene& scene) {
   Hash hash;
   hash.add(scene.effective);
-  for (const BodySpec& body : scene.bodies) {
-    if (!body.mesh_file.empty()) hash.add_file(body.mesh_file);
-    hash.add(bytes_of(body.mesh.position.data(), static_cast<std::size_t>(body.mesh.position.size())));
-    hash.add(bytes_of(body.mesh.face.data(), body.mesh.face.size()));
-    if (!body.texture_file.empty()) hash.add_file(body.texture_file);
-  }
+  for (const BodySpec& body : scene.bodies) add_files(hash, body.mesh_file, body.mesh, body);
+  for (const ColliderSpec& collider : scene.colliders)
+    add_files(hash, collider.mesh_file, collider.solid.mesh, collider);
   return hash.hex();
 }
 
@@ -78,14 +108,23 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.file = file;
   scene.duration = map.number("duration", scene.duration);
   scene.gravity = map.vector("gravity", scene.gravity);
-  std::vector<BodyDraft> drafts = read_bodies(map, file.parent_path());
+  Names names;
+  std::vector<BodyDraft> drafts = read_bodies(map, file.parent_path(), names);
+  std::vector<ColliderDraft> colliders = read_colliders(map, file.parent_path(), names);
   read_water(map, scene);
+  scene.wind = read_wind(map);
   scene.solver = read_solver(map, scene.duration);
-  scene.render = read_render(map, scene.duration, names_of(drafts), scene.followed);
+  const RenderDraft render = read_render(map, scene.duration, names_of(drafts));
+  scene.render = render.settings;
+  scene.followed = render.followed;
+  if (render.ground) names.add(render.ground->name, render.ground_where, "body or collider");
   scene.strip = read_strip(map, scene.duration);
   scene.spectrum = read_spectrum(map, scene.duration, drafts);
+  settle_contact(drafts, !colliders.empty() || render.ground);
   scene.effective = to_yaml(*record);
   for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch));
+  for (ColliderDraft& draft : colliders) scene.colliders.push_back(load_collider(std::move(draft), watch));
+  scene.contact = contact_of(scene, render.ground);
   scene.hash = fingerprint(scene);
   return scene;
 }

@@ -88,15 +88,45 @@ std::optional<int> read_camera(MapReader& map, render::Camera& camera, const std
   return read_follow(camera_map, bodies);
 }
 
-// true, false, or the height of the ground.
-void read_ground(MapReader& map, render::Settings& settings) {
+// A ground that collides: bodies must know where it is before they have moved.
+sim::Collider read_colliding_ground(MapReader& ground) {
+  ground.require("height", ": it says where bodies land");
+  sim::Collider collider;
+  collider.name = "ground";
+  collider.half_space.emplace().point.y() = ground.number("height");
+  ground.boolean("collide", true);
+  collider.thickness = ground.number("thickness", collider.thickness);
+  collider.friction = ground.number("friction", collider.friction);
+  return collider;
+}
+
+// A map of keys. Without collision only the height matters, and is entered as if it stood alone.
+std::optional<sim::Collider> read_ground_map(MapReader& map, const Node& node, render::Settings& settings) {
+  const Section& section = keys::section("render.ground");
+  settings.ground = true;
+  MapReader plain(node, section, make_map());
+  if (!plain.boolean("collide", false)) {
+    if (plain.find("height")) settings.ground_height = plain.number("height");
+    map.record("ground", settings.ground_height ? record_of(*settings.ground_height) : make_scalar("true"));
+    return std::nullopt;
+  }
+  MapReader ground = map.map_from(&node, "ground", section);
+  const sim::Collider collider = read_colliding_ground(ground);
+  settings.ground_height = collider.half_space->point.y();
+  return collider;
+}
+
+// true, false, the height of the ground, or a map with keys. The collider, where it collides.
+std::optional<sim::Collider> read_ground(MapReader& map, render::Settings& settings) {
   const Node* node = map.find("ground");
+  if (node && node->kind == Node::Kind::map) return read_ground_map(map, *node, settings);
   if (!node || is_word(*node, "true") || is_word(*node, "false")) {
     settings.ground = map.boolean("ground", settings.ground);
-    return;
+    return std::nullopt;
   }
   settings.ground = true;
   settings.ground_height = map.number("ground");
+  return std::nullopt;
 }
 
 // One colour is short for the same colour at top and bottom.
@@ -115,10 +145,10 @@ void read_background(MapReader& map, render::Background& background) {
 
 }  // namespace
 
-render::Settings read_render(MapReader& scene, double duration, const std::vector<std::string>& bodies,
-                             std::optional<int>& followed) {
+RenderDraft read_render(MapReader& scene, double duration, const std::vector<std::string>& bodies) {
   MapReader map = scene.map("render", keys::section("render"));
-  render::Settings settings;
+  RenderDraft draft;
+  render::Settings& settings = draft.settings;
   read_size(map, settings);
   settings.fps = map.number("fps", settings.fps);
   if (duration * settings.fps > max_frames)
@@ -126,13 +156,14 @@ render::Settings read_render(MapReader& scene, double duration, const std::vecto
                                           shortest(duration), shortest(settings.fps)));
   settings.samples = read_samples(map, settings.samples);
   read_views(map, settings.views);
-  followed = read_camera(map, settings.camera, bodies);
-  read_ground(map, settings);
+  draft.followed = read_camera(map, settings.camera, bodies);
+  draft.ground = read_ground(map, settings);
+  draft.ground_where = map.where("ground");
   settings.velocity_colour = map.choice("velocity_colour", settings.velocity_colour);
   settings.velocity_range = map.number_or_word("velocity_range");
   settings.legend = map.boolean("legend", settings.legend);
   read_background(map, settings.background);
-  return settings;
+  return draft;
 }
 
 std::optional<StripSpec> read_strip(MapReader& scene, double duration) {

@@ -9,6 +9,7 @@
 #include "cli/scene/scene.h"
 #include "sim/body/state.h"
 #include "sim/body/structure.h"
+#include "sim/contact/contact.h"
 #include "sim/force/forces.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/step_setter.h"
@@ -31,6 +32,7 @@ struct StepChoice {
   std::optional<sim::StepSetter> setter;            // the place that makes the step much smaller than it is elsewhere
   bool only_at_rest = false;                        // forward Euler's, where nothing damps every motion at any shape
   bool always_grows = false;                        // slowly, at every step alike: the filter's doing
+  int phase = 0;                                    // Simulation's, that all this was found of
   sim::EigenvalueEstimate k0;                       // [1/s^2]
   std::optional<sim::EigenvalueEstimate> filtered;  // Algorithm 1's alpha [1/s^2] where the scene filters
 
@@ -39,7 +41,8 @@ struct StepChoice {
   bool any_shape_binds() const { return any_shape && !only_at_rest && (!certified || *any_shape < *certified); }
 };
 
-/// Everything that a run needs besides time. Immovable: the forces refer to the structure.
+/// Everything that a run needs besides time. Immovable: the forces refer to the structure. What is asked without a
+/// phase is that of the start, before any pin lets go; the laws and their energies are the same in all.
 class Simulation {
  public:
   /// Builds structure and forces of `scene`, which must outlive this. Throws InputError.
@@ -47,36 +50,52 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  const sim::Structure& structure() const { return structure_; }
-  const sim::Forces& forces() const { return *forces_; }
+  /// Between two times at which pins let go.
+  struct Phase {
+    Phase(const Scene& scene, double begin, sim::Structure structure);
+    const sim::Filter* filter_operator() const { return built_filter ? &*built_filter : nullptr; }
+
+    double begin;  // [s]
+    sim::Structure structure;
+    sim::Forces forces;
+    std::optional<sim::Filter> built_filter;   // make_filter's; none where the scene does not filter, or need not
+    std::optional<sim::FilterOptions> filter;  // what makes it again
+    std::optional<sim::ContactModel> contact;  // none where nothing touches
+  };
+
+  const Phase& phase(int number = 0) const { return *phases_[static_cast<std::size_t>(number)]; }
+  int phases() const { return static_cast<int>(phases_.size()); }
+  /// Whose time `time` [s] is; within the step in which it begins the run is still in the one before.
+  const Phase& phase_at(double time) const;
+  const sim::Structure& structure() const { return phase().structure; }
+  const sim::Forces& forces() const { return phase().forces; }
   const sim::State& initial_state() const { return initial_; }
   /// The scene's filter as make_filter chose it; none where the scene does not filter, or need not.
-  const std::optional<sim::FilterOptions>& filter() const { return filter_; }
+  const std::optional<sim::FilterOptions>& filter() const { return phase().filter; }
   /// The same as an operator; null for none.
-  const sim::Filter* filter_operator() const { return operator_ ? &*operator_ : nullptr; }
+  const sim::Filter* filter_operator() const { return phase().filter_operator(); }
 
   /// A solver at the scene's start, taking steps of `choice`.
   std::unique_ptr<sim::Solver> make_solver(const StepChoice& choice) const;
   /// The same, watched: states at what `next_time` comes to.
   std::unique_ptr<sim::WatchedRun> make_run(const StepChoice& choice, sim::WatchedRun::NextTime next_time) const;
-  /// The limits alone, no step chosen: also where there is none to choose.
+  /// The limits alone, no step chosen: also where there is none to choose. Of the phase that leaves the least room.
   StepChoice find_limits() const;
   /// The step that the scene asks for. Schemes without a limit take the paper's 0.01 s. Throws InputError when every
   /// step grows.
   StepChoice choose_step() const;
 
  private:
-  sim::CertifiedStep certified_limit(const sim::Linearisation& linearisation,
+  sim::CertifiedStep certified_limit(const Phase& phase, const sim::Linearisation& linearisation,
                                      const sim::StiffnessMatrix* least_damping) const;
+  StepChoice find_limits(const Phase& phase) const;
+  std::vector<sim::HookMaker> hooks(const Phase& phase) const;
   sim::SolverOptions solver_options(const StepChoice& choice) const;
-  std::string refusal() const;
+  std::string refusal(const Phase& phase) const;
 
   const Scene& scene_;
-  sim::Structure structure_;
-  std::unique_ptr<sim::Forces> forces_;
+  std::vector<std::unique_ptr<Phase>> phases_;  // at least one
   sim::State initial_;
-  std::optional<sim::FilterOptions> filter_;
-  std::optional<sim::Filter> operator_;  // the same, as an operator
 };
 
 }  // namespace billow::cli

@@ -3,6 +3,7 @@
 
 #include "cli/scene/mesh_body.h"
 #include "cli/scene/particle_expression.h"
+#include "cli/scene/scene_pins.h"
 
 namespace billow::cli {
 
@@ -50,9 +51,13 @@ void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& 
   draft.spec.kind = std::move(soft);
 }
 
+// Its springs keep it from folding onto itself.
+ContactSpec SoftSpec::contact_by_kind() const { return {.self = false}; }
+
 void SoftSpec::place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body) {
   body.mesh = placed(mesh, draft);
-  options.surface.pinned = pinned_vertices(body.mesh, draft);
+  body.pins = placed_pins(body.mesh, draft);
+  options.surface.pinned = held_vertices(body.pins, 0.0);
   options.stiffness_factor = factors(body.mesh, draft.stiffness_factor, "the variation of stiffness");
   options.mass_factor = factors(body.mesh, draft.mass_factor, "the variation of mass");
 }

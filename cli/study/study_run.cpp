@@ -51,8 +51,9 @@ void add_limits(RunResult& result, const Scene& scene, const Simulation& simulat
 }
 
 void add_measured(RunResult& result, const Scene& scene, const Simulation& simulation, const StepChoice& choice) {
-  const sim::MeasuredStep measured =
-      measure_step(scene, simulation, scene.solver.method, simulation.filter(), choice.limit, choice.k0.value);
+  const Simulation::Phase& phase = simulation.phase(choice.phase);
+  const sim::MeasuredStep measured = measure_step(scene, phase, simulation.initial_state(), scene.solver.method,
+                                                  phase.filter, choice.limit, choice.k0.value);
   if (!measured.unlimited)
     add_limit(result, "measured", measured.step, sim::paper_step(scene.solver.method, choice.k0.value));
 }

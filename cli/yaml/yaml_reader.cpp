@@ -190,10 +190,10 @@ double MapReader::number(std::string_view key, std::optional<double> fallback) {
   return value;
 }
 
-std::optional<double> MapReader::number_or_word(std::string_view key) {
+std::optional<double> MapReader::number_or_word(std::string_view key, std::optional<double> fallback) {
   const Node* node = find(key);
   const std::string_view word = section_.key(key).choices.at(0);
-  if (node && !is_word(*node, word)) return number(key);
+  if (node ? !is_word(*node, word) : fallback.has_value()) return number(key, fallback);
   record(key, make_scalar(std::string(word)));
   return std::nullopt;
 }

@@ -81,8 +81,8 @@ class MapReader {
   const Node& require(std::string_view key, std::string_view hint_without = "") const;
 
   double number(std::string_view key, std::optional<double> fallback = {});
-  /// A number, or the key's one word for nothing, which is also the default.
-  std::optional<double> number_or_word(std::string_view key);
+  /// A number, or the key's one word for nothing, which is also the default where there is no other.
+  std::optional<double> number_or_word(std::string_view key, std::optional<double> fallback = {});
   int integer(std::string_view key, std::optional<int> fallback = {});
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});

@@ -65,6 +65,7 @@ void expect_values(const json& values, const json& frame) {
   wanted.push_back(wanted[0] + wanted[1]);
   for (const char* momentum : {"linear_momentum", "angular_momentum"})
     for (const double component : frame[momentum]) wanted.push_back(component);
+  for (const char* stretch : {"largest_stretch", "mean_stretch"}) wanted.push_back(frame[stretch]);
   ASSERT_EQ(values.size(), wanted.size());
   for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(values[k], wanted[k], 0.002) << k;
 }

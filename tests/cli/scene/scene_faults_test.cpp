@@ -41,9 +41,8 @@ TEST(SceneFaults, Keys) {
       {"billow: 1\n", "", "scene.yaml:1:1: the scene needs the key 'billow'; begin it with 'billow: 1'"},
       {"      mesh: cloth.obj\n", "", "scene.yaml:7:7: cloth needs the key 'mesh'"},
       {"bodies:\n", "objects:\n",
-       "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, water, "
-       "solver, "
-       "render, strip, spectrum"},
+       "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, "
+       "colliders, water, wind, solver, render, strip, spectrum"},
       {"duration: 2", "? [a, b]\n: 2", "scene.yaml:2:3: a key must be a word"},
       {"duration: 2", "? {a: b}\n: 2", "scene.yaml:2:3: a key must be a word"},
   });
@@ -237,9 +236,9 @@ TEST(SceneFaults, Bodies) {
        "scene.yaml:13:5: a body needs a kind, one of the keys 'cloth', 'soft', 'fish'"},
       {"solver:\n", "  - sheet\nsolver:\n", "scene.yaml:13:5: body must be a map, not 'sheet'"},
       {"{corner: top_left}", "{}",
-       "scene.yaml:11:14: a pin has one key, corner, vertices, box or group; this one has 0"},
+       "scene.yaml:11:14: a pin has one of the keys corner, vertices, box and group; this one has 0"},
       {"{corner: top_left}", "{corner: top_left, group: edge}",
-       "scene.yaml:11:14: a pin has one key, corner, vertices, box or group; this one has 2"},
+       "scene.yaml:11:14: a pin has one of the keys corner, vertices, box and group; this one has 2"},
       {"{corner: top_left}", "{vertices: [0, 9]}",
        "scene.yaml:11:25: there is no vertex 9: the mesh has 9, numbered 0 to 8"},
       {"{corner: top_left}", "{vertices: [-1]}",

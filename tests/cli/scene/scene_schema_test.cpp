@@ -132,7 +132,9 @@ void expect_same_defaults(const Json& object, const cli::Node& map) {
 
 TEST(SceneSchema, HasTheReadersDefaults) {
   const test::SceneFolder folder;
-  const auto file = folder.scene("billow: 1\nbodies: [{cloth: {mesh: cloth.obj}}]\nsolver: {filter: {}}\nstrip: {}\n");
+  const auto file = folder.scene(
+      "billow: 1\nbodies: [{cloth: {mesh: cloth.obj}}]\nsolver: {filter: {}}\nstrip: {}\n"
+      "wind: {gusts: {}}\n");
   const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
   const Json root = schema();
   expect_same_defaults(root, *effective);

@@ -1,0 +1,35 @@
+// What is drawn of a collider.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "cli/scene/scene.h"
+#include "render/frame/drawn_body.h"
+#include "sim/drawn/surface.h"
+
+namespace billow::cli {
+
+/// Its surface, with sharp edges where it has them, carried along by its motion.
+class DrawnCollider {
+ public:
+  /// `spec` must outlive this. A plane, which has no end, is drawn as a square around `bodies` [m], the bodies at the
+  /// start, its texture once over every square metre.
+  DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies);
+
+  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour}; }
+  /// At `time` [s], seen from a camera that has come `path` [m].
+  sim::SurfaceState at(double time, const Eigen::RowVector3f& path) const;
+  /// What of it a picture of `bodies` [m] should show, itself being at `state`: a small collider that is near them
+  /// whole, of a larger one what is near them, of a plane nothing. A table must not make the cloth on it a dot.
+  Eigen::AlignedBox3d framed(const sim::SurfaceState& state, const Eigen::AlignedBox3d& bodies) const;
+
+ private:
+  const ColliderSpec& spec_;
+  Eigen::MatrixX3d position_;  // [m] (p x 3) before its motion
+  sim::Surface surface_;
+};
+
+/// The box [m] around a surface.
+Eigen::AlignedBox3d box_of(const sim::SurfaceState& state);
+
+}  // namespace billow::cli

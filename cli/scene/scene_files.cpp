@@ -1,0 +1,35 @@
+// Meshes and textures of a scene.
+#include "cli/scene/scene_files.h"
+
+#include <fmt/format.h>
+
+#include "cli/scene/scene_parts.h"
+#include "render/image/png.h"
+#include "sim/mesh/mesh_import.h"
+
+namespace billow::cli {
+
+namespace fs = std::filesystem;
+
+void check_file(const fs::path& file, std::string_view kind, const std::string& where) {
+  if (file.empty()) return;
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  const std::string shown = file.lexically_normal().string();
+  if (status.type() == fs::file_type::not_found) fail_at(where, fmt::format("there is no {} file {}", kind, shown));
+  if (!fs::is_regular_file(status)) fail_at(where, fmt::format("the {} {} is not a regular file", kind, shown));
+}
+
+void load_texture(Look& look, const FileWatch& watch) {
+  if (look.texture_file.empty()) return;
+  check_file(look.texture_file, "texture", look.texture_where);
+  if (watch) watch(look.texture_file);
+  look.texture = located(look.texture_where, [&] { return render::read_png(look.texture_file); });
+}
+
+sim::Mesh load_mesh(const fs::path& file, const std::string& where, const FileWatch& watch) {
+  if (watch) watch(file);
+  return located(where, [&] { return sim::import_mesh(file); });
+}
+
+}  // namespace billow::cli
