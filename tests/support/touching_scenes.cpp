@@ -65,10 +65,10 @@ std::unique_ptr<TouchingScene> turning_ball(bool as_mesh) {
   if (as_mesh) turning = solid_mesh("ball", sphere_mesh({0.0, 0.0, 0.0}, 0.3));
   turning.friction = 0.6;
   turning.motion = KeyedMotion({{0.4}, {1.6, {0.0, 0.0, 0.0}, {0.0, 1.5 * pi, 0.0}}}, Eigen::Vector3d::Zero());
-  const int squares = as_mesh ? 24 : 32;
+  const int squares = as_mesh ? 20 : 28;
   return touching_scene(as_mesh ? "turning_mesh" : "turning_ball",
                         {{.mesh = flat_sheet(squares, squares, 1.0, {0.0, 0.32, 0.0})}}, {turning, ground(-0.5)},
-                        as_mesh ? 1.0 : 1.6);
+                        as_mesh ? 0.8 : 1.4);
 }
 
 // Harmon, Vouga, Tamstorf & Grinspun 2008: a cloth is pushed through a funnel.
@@ -91,7 +91,7 @@ std::unique_ptr<TouchingScene> funnel() {
   pusher.motion = KeyedMotion({{0.3}, {1.5, {0.0, -0.7, 0.0}, {0.0, 0.0, 0.0}}}, Eigen::Vector3d::Zero());
   Collider walls = solid_mesh("funnel", std::move(cone));
   walls.friction = 0.05;
-  return touching_scene("funnel", {{.mesh = flat_sheet(26, 26, 0.6, {0.0, 0.45, 0.0}), .mass = 0.06, .friction = 0.05}},
+  return touching_scene("funnel", {{.mesh = flat_sheet(22, 22, 0.6, {0.0, 0.45, 0.0}), .mass = 0.06, .friction = 0.05}},
                         {walls, pusher}, 1.6);
 }
 
@@ -100,7 +100,7 @@ std::unique_ptr<TouchingScene> stack() {
   for (int k = 0; k < 5; ++k)
     cloths.push_back(
         {.mesh = flat_sheet(18, 18, 0.5, {0.031 * k, 0.05 + 0.05 * k, 0.017 * k * (k % 2)}), .mass = 0.05});
-  return touching_scene("stack", cloths, {ground(0.0)}, 1.0);
+  return touching_scene("stack", cloths, {ground(0.0)}, 0.6);
 }
 
 // The two short ends turn four times against each other.
@@ -147,7 +147,7 @@ std::unique_ptr<TouchingScene> thrown() {
 
 // Three layers of one cloth between two planes that close.
 std::unique_ptr<TouchingScene> squeezed() {
-  constexpr int across = 60, along = 12;
+  constexpr int across = 54, along = 9;
   constexpr double radius = 0.02, straight = 0.2;
   Mesh mesh = flat_sheet(across, along, 1.0, Eigen::Vector3d::Zero());
   const double bend = pi * radius, length = 3.0 * straight + 2.0 * bend;
@@ -172,7 +172,7 @@ std::unique_ptr<TouchingScene> squeezed() {
   lid.name = "lid";
   lid.half_space = HalfSpace{{0.0, 0.11, 0.0}, {0.0, -1.0, 0.0}};
   lid.motion = KeyedMotion({{0.0}, {1.0, {0.0, -0.09, 0.0}, {0.0, 0.0, 0.0}}}, Eigen::Vector3d::Zero());
-  return touching_scene("squeezed", {{.mesh = mesh, .mass = 0.1, .drag = 2e-4}}, {ground(0.0), lid}, 1.2);
+  return touching_scene("squeezed", {{.mesh = mesh, .mass = 0.1, .drag = 2e-4}}, {ground(0.0), lid}, 1.1);
 }
 
 std::unique_ptr<TouchingScene> bumpy() {
@@ -187,7 +187,7 @@ std::unique_ptr<TouchingScene> bumpy() {
   // Upright cloths are laid flat.
   if (extent(1) > extent(2)) irregular.position.col(1).swap(irregular.position.col(2));
   irregular.position.col(1).array() += 0.25;
-  return touching_scene("bumpy", {{.mesh = irregular}}, {solid_mesh("bumps", bumps)}, 1.0);
+  return touching_scene("bumpy", {{.mesh = irregular}}, {solid_mesh("bumps", bumps)}, 0.4);
 }
 
 const std::vector<std::pair<std::string, std::function<std::unique_ptr<TouchingScene>()>>>& scenes() {
