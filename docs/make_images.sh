@@ -20,6 +20,9 @@ one irregular 40 textured irregular "${small[@]}"
 one two_bodies 30 textured two_bodies "${small[@]}"
 one choi_ko 100 textured choi_ko "${small[@]}"
 one fish 60 textured fish "${small[@]}"
+one sphere 30 textured sphere "${small[@]}" -D duration=1.4
+one table 34 textured table "${small[@]}" -D duration=1.5
+one flag 60 textured flag "${small[@]}" -D duration=2.5
 # The same fall without a filter, with a force filter and with a velocity filter: the picture at 3.4 s, the strip of 5 s.
 filters() {
   local name=$1
