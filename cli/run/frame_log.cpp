@@ -1,6 +1,8 @@
 // Records as plain numbers, one after another.
 #include "cli/run/frame_log.h"
 
+#include <algorithm>
+
 #include <array>
 
 namespace billow::cli {
@@ -13,20 +15,16 @@ Eigen::Vector3d vector_at(const Row& row, std::size_t first) { return {row[first
 
 }  // namespace
 
-void FrameLog::add(const FrameRecord& record) {
+std::array<double, 10> measures_of(const FrameRecord& record) {
   const Eigen::Vector3d &p = record.linear_momentum, &l = record.angular_momentum;
-  const Row row{static_cast<double>(record.frame),
-                record.time,
-                record.kinetic,
-                record.potential,
-                p.x(),
-                p.y(),
-                p.z(),
-                l.x(),
-                l.y(),
-                l.z(),
-                record.stretch.largest,
-                record.stretch.mean};
+  return {record.kinetic,         record.potential,   p.x(), p.y(), p.z(), l.x(), l.y(), l.z(),
+          record.stretch.largest, record.stretch.mean};
+}
+
+void FrameLog::add(const FrameRecord& record) {
+  Row row{static_cast<double>(record.frame), record.time};
+  const auto measures = measures_of(record);
+  std::copy(measures.begin(), measures.end(), row.begin() + 2);
   spool_.append(row.data(), sizeof row);
   ++size_;
 }

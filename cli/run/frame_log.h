@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 
 #include "base/spool.h"
@@ -17,6 +18,9 @@ struct FrameRecord {
   Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
   sim::Stretch stretch = {};
 };
+
+/// What of a frame is measured: kinetic and potential energy, the two momenta by axis, largest and mean stretch.
+std::array<double, 10> measures_of(const FrameRecord& record);
 
 /// Records in the order in which they were added; iterate over it as over a vector. Throws OutputError.
 class FrameLog {

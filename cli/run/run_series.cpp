@@ -1,25 +1,21 @@
 // Groups that keep their extremes.
 #include "cli/run/run_series.h"
 
+#include <algorithm>
+
 #include "cli/run/film.h"
 
 namespace billow::cli {
 
 namespace {
 
+// In the order of Quantity: what is measured, and the energies' sum.
 std::array<double, 11> quantities_of(const FrameRecord& record) {
-  const Eigen::Vector3d &p = record.linear_momentum, &l = record.angular_momentum;
-  return {record.kinetic,
-          record.potential,
-          record.kinetic + record.potential,
-          p.x(),
-          p.y(),
-          p.z(),
-          l.x(),
-          l.y(),
-          l.z(),
-          record.stretch.largest,
-          record.stretch.mean};
+  const auto measures = measures_of(record);
+  std::array<double, 11> quantities{};
+  std::copy(measures.begin(), measures.end(), quantities.begin());
+  quantities.back() = record.kinetic + record.potential;
+  return quantities;
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ struct FrameRecord;
 enum class Quantity {
   kinetic,
   potential,
-  total,
   linear_x,
   linear_y,
   linear_z,
@@ -23,6 +22,7 @@ enum class Quantity {
   angular_z,
   largest_stretch,
   mean_stretch,
+  total,
 };
 
 /// Takes frame after frame in bounded memory. Up to 1,000 frames are kept as they are; of more, neighbours are merged

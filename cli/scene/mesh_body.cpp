@@ -161,8 +161,10 @@ void check_only_one_moves(const std::vector<PinSpec>& pins, const std::vector<Pi
     for (const int v : pins[p].vertices) {
       const std::size_t other = holder.try_emplace(v, p).first->second;
       if (other != p && (pins[p].motion.moves() || pins[other].motion.moves()))
-        fail_at(drafts[p].where, fmt::format("vertex {} is already held by the pin at {}, and one of the two moves it",
-                                             v, drafts[other].where));
+        fail_at(drafts[p].where,
+                fmt::format(
+                    "vertex {} is already held by the pin at {}, and one of the two moves it; leave it to one of them",
+                    v, drafts[other].where));
     }
 }
 

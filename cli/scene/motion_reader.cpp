@@ -32,7 +32,8 @@ std::vector<sim::PlaceKey> read_place_keys(MapReader& map, std::string_view key)
       record.push_back(make_map());
       keys.push_back(read_place_key(*item, record.back()));
       if (keys.size() > 1 && !(keys.back().time > keys[keys.size() - 2].time))
-        fail_at(item->where, fmt::format("{}[{}] is no later than the one before it", key, keys.size() - 1));
+        fail_at(item->where,
+                fmt::format("{}[{}] is no later than the one before it; sort the keys by time", key, keys.size() - 1));
     }
   map.record(key, make_list(std::move(record)));
   return keys;

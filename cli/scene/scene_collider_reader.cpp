@@ -26,7 +26,8 @@ void read_plane(MapReader& plane, const fs::path&, ColliderDraft& draft) {
   } else {
     solid.point = plane.vector("point", solid.point);
     solid.normal = plane.vector("normal", solid.normal);
-    if (solid.normal.norm() < least_length) fail_at(plane.where("normal"), "normal has no direction: its length is 0");
+    if (solid.normal.norm() < least_length)
+      fail_at(plane.where("normal"), "normal has no direction: its length is 0; [0, 1, 0] is a floor's");
     solid.normal.normalize();
   }
   draft.spec.solid.half_space = solid;

@@ -12,6 +12,7 @@
 #include "cli/scene/scene_filter.h"
 #include "cli/scene/scene_parts.h"
 #include "cli/scene/scene_pins.h"
+#include "sim/contact/start_check.h"
 #include "sim/filter/filter.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
@@ -59,7 +60,18 @@ Simulation::Simulation(const Scene& scene) : scene_(scene) {
   for (const double time : release_times(scene))
     phases_.push_back(std::make_unique<Phase>(scene, time, released(scene, structure(), time)));
   initial_ = start_of(scene, structure());
-  if (phase().contact) located(scene.file.string(), [&] { sim::check_start(*phase().contact, initial_); });
+  check_contact_at_start();
+}
+
+// Found at the mesh of the body that is in the way.
+void Simulation::check_contact_at_start() const {
+  if (!phase().contact) return;
+  try {
+    sim::check_start(*phase().contact, initial_);
+  } catch (const sim::StartError& error) {
+    const std::string& where = scene_.bodies[static_cast<std::size_t>(error.body)].mesh_where;
+    fail_at(where.empty() ? scene_.file.string() : where, error.what());
+  }
 }
 
 const Simulation::Phase& Simulation::phase_at(double time) const {

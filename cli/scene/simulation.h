@@ -88,6 +88,7 @@ class Simulation {
  private:
   sim::CertifiedStep certified_limit(const Phase& phase, const sim::Linearisation& linearisation,
                                      const sim::StiffnessMatrix* least_damping) const;
+  void check_contact_at_start() const;
   StepChoice find_limits(const Phase& phase) const;
   std::vector<sim::HookMaker> hooks(const Phase& phase) const;
   sim::SolverOptions solver_options(const StepChoice& choice) const;

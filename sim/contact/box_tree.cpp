@@ -26,8 +26,6 @@ BoxTree::BoxTree(const ContactSurface& surface, const SurfacePart& part)
     middle.push_back(sum / 3.0);
   }
   if (part.faces > 0) build(middle, 0, part.faces);
-  place_.resize(order_.size());
-  for (std::size_t k = 0; k < order_.size(); ++k) place_[order_[k] - first_face_] = static_cast<int>(k);
   face_box_.resize(order_.size());
 }
 

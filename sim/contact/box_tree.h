@@ -45,7 +45,6 @@ class BoxTree {
   static void pairs(const Task& task, double gap, std::vector<FacePair>& out);
 
   const Box& box() const { return node_[0].box; }
-  const Box& face_box(int face) const { return face_box_[place_[face - first_face_]]; }
 
  private:
   struct Node {
@@ -62,7 +61,6 @@ class BoxTree {
   const ContactSurface& surface_;
   int first_face_;
   std::vector<int> order_;     // the triangles as the leaves have them
-  std::vector<int> place_;     // of a triangle in order_
   std::vector<Box> face_box_;  // in that order
   std::vector<Node> node_;
 };

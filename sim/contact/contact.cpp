@@ -85,7 +85,8 @@ void Contact::place_planes() {
   for (const int c : surface_.half_space) {
     const Collider& collider = model_.options().collider[c];
     const Eigen::Isometry3d now = collider.motion.at(time_), next = collider.motion.at(time_ + h_);
-    plane_.push_back({.point = now * collider.half_space->point,
+    plane_.push_back({.name = collider.name,
+                      .point = now * collider.half_space->point,
                       .normal = now.linear() * collider.half_space->normal,
                       .next_point = next * collider.half_space->point,
                       .next_normal = next.linear() * collider.half_space->normal,
@@ -125,15 +126,13 @@ void Contact::apply(const State& state, const Move& move, Eigen::MatrixX3d& velo
   gather(velocity, velocity_);
   gather(state.position, to_);
   if (!detection_.valid()) detect();
-  // Where velocities come too late for this step's way, they are judged as if they were the next one's.
-  const double h = move.by_new > 0.0 ? move.by_new : h_;
   find_plane_contacts(to_);
   std::copy(to_.begin(), to_.begin() + surface_.particles, start_.begin());
   std::copy(from_.begin() + surface_.particles, from_.end(), start_.begin() + surface_.particles);
   work_ = 0.0;
   bool first = true;
   for (int attempt = detection_.time() == time_ ? 1 : 0;; ++attempt, first = false) {
-    impulses_.apply(detection_.pairs(), plane_contact_, spin_, start_, h, {first, sweeps[attempt]}, velocity_);
+    impulses_.apply(detection_.pairs(), plane_contact_, spin_, start_, h_, {first, sweeps[attempt]}, velocity_);
     work_ += impulses_.work();
     arrive(state, move);
     held_ = holds();
@@ -168,12 +167,15 @@ void Contact::end(State& state) {
   if (!held_ || impulses_.pushes()) scatter(to_, state.position);
 }
 
-// Where a vertex would end within a half-space, its way leads along that.
+// Where a vertex would end within a half-space, its way leads along that. What is pinned cannot.
 void Contact::keep_above_planes(const Points& x, double from, Points& way) const {
   for (const Plane& plane : plane_)
     for (const SurfacePart& part : surface_.part)
       for (int v = part.first_vertex; v < part.first_vertex + part.vertices && part.is_body(); ++v) {
-        if (surface_.inverse_mass[v] == 0.0) continue;
+        if (surface_.inverse_mass[v] == 0.0) {
+          if (height_over(plane, to_[v], 1.0) < 0.0) blocked(part.name, plane.name);
+          continue;
+        }
         const double least = least_share * (part.thickness + plane.thickness);
         const double floor = std::min(least, height_over(plane, x[v], from));
         const double height = height_over(plane, x[v] + way[v], 1.0);
@@ -241,16 +243,19 @@ void Contact::crushed() const {
   for (const ContactPair& pair : detection_.pairs())
     for (const int v : pair.vertex)
       if (surface_.inverse_mass[v] == 0.0 && share_[v] < least) least = share_[v], worst = &pair;
-  if (!worst)
-    throw BlockedError(fmt::format(
-        "at t = {:.4f} s a moving half-space presses a body against something else, which leaves it no room; move the "
-        "colliders less far",
-        time_));
   const auto& name = [&](int v) -> const std::string& { return surface_.part[surface_.part_of[v]].name; };
+  if (worst) blocked(name(worst->vertex[0]), name(worst->vertex[worst->on_a]));
+  // Else a half-space that moves: it waits for a vertex.
+  const auto waits = std::min_element(share_.begin(), share_.begin() + surface_.particles);
+  const auto moving = std::find_if(plane_.begin(), plane_.end(), [](const Plane& plane) { return plane.moves; });
+  blocked(name(static_cast<int>(waits - share_.begin())), moving == plane_.end() ? "something" : moving->name);
+}
+
+void Contact::blocked(const std::string& one, const std::string& other) const {
   throw BlockedError(fmt::format(
       "at t = {:.4f} s '{}' is pressed against '{}' and has nowhere to go; move the colliders or pins less far or "
       "slower, or make the bodies thinner",
-      time_, name(worst->vertex[0]), name(worst->vertex[worst->on_a])));
+      time_, one, other));
 }
 
 namespace {
@@ -266,10 +271,12 @@ void check_above(const ContactModel& model, const SurfacePart& part, int half_sp
     if (normal.dot(x[v] - x[lowest]) < 0.0) lowest = v;
   }
   if (below == 0) return;
-  throw InputError(fmt::format(
-      "{} of the {} vertices of '{}' start inside '{}', vertex {} the deepest, by {:.3g} m; move them apart, or say "
-      "'contact: none'",
-      below, part.vertices, part.name, collider.name, lowest - part.first_vertex, normal.dot(point - x[lowest])));
+  throw StartError(fmt::format("{} of the {} vertices of '{}' start inside '{}', vertex {} the deepest, by {:.3g} m; "
+                               "move them apart, or say "
+                               "'contact: none'",
+                               below, part.vertices, part.name, collider.name, lowest - part.first_vertex,
+                               normal.dot(point - x[lowest])),
+                   part.body);
 }
 
 }  // namespace

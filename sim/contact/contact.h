@@ -1,7 +1,7 @@
 // Contact as a part of every step: nothing passes through anything.
 #pragma once
 
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/contact/contact_options.h"
@@ -50,6 +50,7 @@ class Contact : public StepHook {
  private:
   /// A half-space for one step.
   struct Plane {
+    std::string name;
     Eigen::Vector3d point, normal;            // [m] as it begins
     Eigen::Vector3d next_point, next_normal;  // as it ends
     Eigen::Isometry3d turn;                   // from the one to the other
@@ -67,6 +68,7 @@ class Contact : public StepHook {
   void keep_above_planes(const Points& x, double from, Points& way) const;
   bool is_above_planes(int v, const Eigen::Vector3d& x, double share) const;
   [[noreturn]] void crushed() const;
+  [[noreturn]] void blocked(const std::string& one, const std::string& other) const;
 
   const ContactModel& model_;
   const ContactSurface& surface_;
@@ -87,7 +89,7 @@ class Contact : public StepHook {
   long shared_steps_ = 0;
 };
 
-/// Throws InputError where surfaces cross before the first step at `start`, or a body reaches into a collider, naming
+/// Throws StartError where surfaces cross before the first step at `start`, or a body reaches into a collider, naming
 /// both and the faces.
 void check_start(const ContactModel& model, const State& start);
 

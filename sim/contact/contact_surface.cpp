@@ -106,6 +106,7 @@ ContactSurface::ContactSurface(const Structure& structure, const ContactOptions&
     const BodyContact& contact = options.body[b];
     if (!contact.touches) continue;
     builder.add({.name = body.name,
+                 .body = static_cast<int>(b),
                  .first_vertex = body.first_particle,
                  .vertices = body.particles,
                  .self = contact.self,

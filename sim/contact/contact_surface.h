@@ -17,6 +17,7 @@ using Points = std::vector<Eigen::Vector3d>;
 /// One body's or collider's share of the surface.
 struct SurfacePart {
   std::string name;
+  int body = -1;      // its place in the structure; -1: a collider
   int collider = -1;  // its place among the colliders; -1: a body
   int first_vertex = 0, vertices = 0;
   int first_face = 0, faces = 0;

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "base/error.h"
 #include "sim/contact/box_tree.h"
 #include "sim/contact/closest_points.h"
 
@@ -47,15 +46,16 @@ class PairCheck {
     if (crossing_.empty()) return;
     const auto& [first, second] = *crossing_.begin();
     if (&a_ == &b_)
-      throw InputError(
+      throw StartError(
           fmt::format("'{0}' crosses itself where the run starts, in {1} {2} of faces, the first of them {3} and {4}; "
-                      "unfold it, or "
-                      "say 'contact: {{self: false}}'",
-                      a_.name, crossing_.size(), crossing_.size() == 1 ? "pair" : "pairs", first, second));
-    throw InputError(fmt::format(
-        "'{0}' and '{1}' cross where the run starts, in {2} {3} of faces, the first of them face {4} of '{0}' and face "
-        "{5} of '{1}'; move them apart, or say 'contact: none'",
-        a_.name, b_.name, crossing_.size(), crossing_.size() == 1 ? "pair" : "pairs", first, second));
+                      "unfold it, or say 'contact: {{self: false}}'",
+                      a_.name, crossing_.size(), crossing_.size() == 1 ? "pair" : "pairs", first, second),
+          a_.body);
+    throw StartError(
+        fmt::format("'{0}' and '{1}' cross where the run starts, in {2} {3} of faces, the first of them face {4} of "
+                    "'{0}' and face {5} of '{1}'; move them apart, or say 'contact: none'",
+                    a_.name, b_.name, crossing_.size(), crossing_.size() == 1 ? "pair" : "pairs", first, second),
+        a_.body);
   }
 
  private:
@@ -92,9 +92,10 @@ void check_out_of(const SurfacePart& body, const SurfacePart& rounded, const Con
       least = std::min(least, (w(0) * x[face[0]] + w(1) * x[face[1]] + w(2) * x[face[2]] - end).norm());
     }
     if (least < rounded.radius)
-      throw InputError(fmt::format(
-          "face {} of '{}' reaches {:.3g} m into '{}' where the run starts; move them apart, or say 'contact: none'",
-          surface.polygon[f], body.name, rounded.radius - least, rounded.name));
+      throw StartError(fmt::format("face {} of '{}' reaches {:.3g} m into '{}' where the run starts; move them apart, "
+                                   "or say 'contact: none'",
+                                   surface.polygon[f], body.name, rounded.radius - least, rounded.name),
+                       body.body);
   }
 }
 

@@ -263,28 +263,6 @@ TouchingRun::TouchingRun(const TouchingScene& scene)
   solver_ = std::make_unique<Solver>(scene.structure, forces_, options, scene.start);
 }
 
-std::size_t TouchingRun::crossings_at(const State& state) const {
-  const ContactSurface& surface = model_.surface();
-  Points x = surface.rest;
-  for (int i = 0; i < surface.particles; ++i) x[i] = state.position.row(i);
-  model_.place_colliders(state.time, x);
-  Eigen::MatrixX3d position(surface.vertices(), 3);
-  for (int v = 0; v < surface.vertices(); ++v) position.row(v) = x[v];
-  TriangleSoup soup;
-  std::vector<Face> faces;
-  for (const SurfacePart& part : surface.part)
-    for (int f = part.first_face; f < part.first_face + part.faces && !part.rounded(); ++f)
-      faces.push_back({surface.face[f][0], surface.face[f][1], surface.face[f][2], -1});
-  soup.add(position, faces);
-  for (const Collider& collider : scene_.contact.collider) {
-    if (!collider.rounded) continue;
-    const Eigen::Isometry3d place = collider.motion.at(state.time);
-    soup.add((collider.mesh.position * place.linear().transpose()).rowwise() + place.translation().transpose(),
-             collider.mesh.face);
-  }
-  return crossings(soup).size();
-}
-
 std::vector<std::string> touching_scene_names() {
   std::vector<std::string> names;
   for (const auto& [name, make] : scenes()) names.push_back(name);

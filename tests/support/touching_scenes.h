@@ -10,7 +10,7 @@
 #include "sim/force/forces.h"
 #include "sim/step/moving_pins.h"
 #include "sim/step/solver.h"
-#include "tests/support/intersections.h"
+#include "tests/support/surface_crossings.h"
 
 namespace billow::test {
 
@@ -56,8 +56,7 @@ class TouchingRun {
 
   /// The state at `time` [s] or the end of the step that reaches it.
   sim::State sample(double time) { return solver_->sample(time); }
-  /// Crossings of all triangles at `state`, colliders where they are then.
-  std::size_t crossings_at(const sim::State& state) const;
+  std::size_t crossings_at(const sim::State& state) const { return crossings_of(model_, state); }
   const sim::Solver& solver() const { return *solver_; }
   const sim::Forces& forces() const { return forces_; }
   const sim::Contact& contact() const { return *hook_; }

@@ -1,7 +1,9 @@
 // Colliders and contact in scenes: what is read, what is the default, what is refused.
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "cli/scene/contact_text.h"
+#include "cli/scene/simulation.h"
 #include "sim/body/fish.h"
 #include "sim/mesh/closed_surface.h"
 #include "tests/support/scene_files.h"
@@ -218,6 +220,28 @@ TEST_F(SceneContact, IsSaidInWords) {
   EXPECT_TRUE(cli::contact_lines(read("")).empty());
 }
 
+TEST_F(SceneContact, WarnsWhereTheMeshIsFinerThanItsThickness) {
+  const std::vector<std::string> lines = cli::contact_lines(read("contact: {thickness: 0.6}"));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1].find("warning: 12 of the 12 edges of 'body_0' are shorter than the thickness of its contact, the "
+                          "shortest 500 mm: "),
+            0u)
+      << lines[1];
+  EXPECT_EQ(cli::contact_lines(read("contact: {thickness: 0.6, self: false}")).size(), 1u);
+}
+
+TEST_F(SceneContact, IsRefusedAtTheMeshOfABodyThatStartsInsideSomething) {
+  const cli::Scene scene = read("", "colliders: [{name: wall, box: {centre: [0, 0, 0], size: [0.3, 0.1, 4]}}]");
+  try {
+    const cli::Simulation simulation(scene);
+    FAIL() << "nothing was said";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(":2:25: 'body_0' and 'wall' cross where the run starts, in "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 struct Fault {
   std::string body, rest, message;
 };
@@ -239,7 +263,8 @@ TEST_F(SceneContact, IsRefusedWithThePlace) {
       {"", "colliders: [{box: {size: [1, 0, 1]}}]", "3:30: size[1] is 0 m; it must be above 0 and at most 100000 m"},
       {"", "colliders: [{capsule: {from: [0, 0, 0], radius: 1}}]", "3:23: capsule needs the key 'to'"},
       {"", "colliders: [{cylinder: {from: [0, 1, 0], to: [0, 1, 0], radius: 1}}]", "3:46: to is where from is"},
-      {"", "colliders: [{plane: {normal: [0, 0, 0]}}]", "3:30: normal has no direction: its length is 0"},
+      {"", "colliders: [{plane: {normal: [0, 0, 0]}}]",
+       "3:30: normal has no direction: its length is 0; [0, 1, 0] is a floor's"},
       {"", "colliders: [{plane: {height: 1, normal: [0, 1, 0]}}]",
        "3:41: a plane at a height is level and has no 'normal'; leave one of both out"},
       {"", "colliders: [{mesh: {}}]", "3:20: mesh needs the key 'file'"},
@@ -247,7 +272,7 @@ TEST_F(SceneContact, IsRefusedWithThePlace) {
       {"", "colliders: [{sphere: {radius: 1}, friction: -1}]",
        "3:45: friction is -1; it must be at least 0 and at most 100"},
       {"", "colliders: [{sphere: {radius: 1}, motion: [{time: 1}, {time: 1}]}]",
-       "3:55: motion[1] is no later than the one before it"},
+       "3:55: motion[1] is no later than the one before it; sort the keys by time"},
       {"", "colliders: [{name: body_0, sphere: {radius: 1}}]",
        "3:20: a second body or collider named 'body_0'; the first is at scene.yaml:2:10"},
       {"", "colliders: [{name: 7, sphere: {radius: 1}}]", "3:20: the name '7' will not do"},

@@ -63,7 +63,7 @@ TEST_F(ScenePins, ReadBackFromTheEffectiveScene) {
 
 TEST_F(ScenePins, AreRefusedWithTheirPlace) {
   EXPECT_EQ(error("[{corner: top_left, motion: [{time: 1}, {time: 1, translate: [1, 0, 0]}]}]"),
-            "scene.yaml:11:53: motion[1] is no later than the one before it");
+            "scene.yaml:11:53: motion[1] is no later than the one before it; sort the keys by time");
   EXPECT_EQ(error("[{corner: top_left, motion: [{translate: [1, 0, 0]}]}]"),
             "scene.yaml:11:42: the key needs the key 'time'");
   EXPECT_EQ(error("[{corner: top_left, motion: [{time: 1, turn: 3}]}]"),
@@ -89,7 +89,9 @@ TEST_F(ScenePins, MoveAVertexByOneOfThemAlone) {
                                                       "{vertices: [0], motion: [{time: 0}, {time: 1, translate: "
                                                       "[0, 1, 0]}]}";
   EXPECT_EQ(error("[" + still + ", " + along + "]"),
-            "scene.yaml:11:45: vertex 0 is already held by the pin at scene.yaml:11:25, and one of the two moves it");
+            "scene.yaml:11:45: vertex 0 is already held by the pin at scene.yaml:11:25, and one of the two moves it; "
+            "leave it to "
+            "one of them");
   EXPECT_EQ(error("[" + along + ", " + along + "]").find("scene.yaml:11:96: vertex 0 is already held"), 0u);
   EXPECT_EQ(error("[" + still + ", " + still + "]"), "");
 }

@@ -134,6 +134,18 @@ TEST(Contact, SaysWhatIsCrushedBetweenColliders) {
   }
 }
 
+// Not even what cannot be pushed away lets a half-space pass unseen.
+TEST(Contact, SaysWhatAPlaneWouldPassThroughThatIsPinned) {
+  test::ClothInScene cloth{.mesh = test::flat_sheet(4, 4, 0.2, {0.0, 0.05, 0.0}), .pinned = {0, 4}};
+  Collider floor;
+  floor.name = "floor", floor.half_space = HalfSpace{};
+  floor.motion = KeyedMotion({{0.0}, {0.4, {0.0, 0.1, 0.0}, {0.0, 0.0, 0.0}}}, Eigen::Vector3d::Zero());
+  const auto scene = test::touching_scene("lifted", {cloth}, {floor}, 1.0);
+  TouchingRun run(*scene);
+  EXPECT_THAT([&] { run.sample(0.5); },
+              testing::ThrowsMessage<BlockedError>(testing::HasSubstr("'cloth_0' is pressed against 'floor'")));
+}
+
 /// What check_start says of a cloth at `middle` and this collider.
 std::string refusal(const Collider& collider, const Eigen::Vector3d& middle) {
   const auto scene = test::touching_scene("refused", {{.mesh = test::flat_sheet(6, 6, 0.3, middle)}}, {collider}, 1.0);

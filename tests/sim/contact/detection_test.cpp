@@ -34,15 +34,7 @@ struct Crumpled {
       v.push_back(i < surface->particles ? Eigen::Vector3d(4.0 * random.next()) : Eigen::Vector3d::Zero());
   }
 
-  std::size_t crossings(const Points& at) const {
-    test::TriangleSoup soup;
-    Eigen::MatrixX3d position(surface->vertices(), 3);
-    for (int i = 0; i < surface->vertices(); ++i) position.row(i) = at[i];
-    std::vector<Face> faces;
-    for (const auto& face : surface->face) faces.push_back({face[0], face[1], face[2], -1});
-    soup.add(position, faces);
-    return test::crossings(soup).size();
-  }
+  std::size_t crossings(const Points& at) const { return test::crossings_of(*surface, at); }
 
   std::unique_ptr<test::TouchingScene> scene;
   std::optional<ContactSurface> surface;

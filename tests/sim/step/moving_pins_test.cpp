@@ -144,19 +144,32 @@ KeyedMotion lift(double begin, double end, double height) {
   return {{{.time = begin}, {.time = end, .translation = {0.0, height, 0.0}}}, Eigen::Vector3d::Zero()};
 }
 
+/// A pendant whose pin is lifted, stepped from where it hangs in balance.
+struct LiftedPendant {
+  LiftedPendant(const Pendant& pendant, const KeyedMotion& motion, Method method, double h)
+      : structure(pendant.structure()),
+        forces(structure, gravity),
+        solver(structure, forces, options_of(forces, {{{0}, motion}}, method, h), pendant.balanced(structure)) {}
+
+  /// Kinetic and potential, the work left out [J].
+  double energy() const {
+    return kinetic_energy(structure, solver.state()) + forces.potential_energy(solver.state()) - solver.work();
+  }
+
+  Structure structure;
+  Forces forces;
+  Solver solver;
+};
+
 /// The most that kinetic + potential - work strays from its start [J].
 double imbalance(Method method, double h, double end) {
-  const Pendant pendant;
-  const Structure structure = pendant.structure();
-  const Forces forces(structure, gravity);
-  Solver solver(structure, forces, options_of(forces, {{{0}, lift(0.1, 0.7, 0.5)}}, method, h),
-                pendant.balanced(structure));
-  const auto energy = [&] {
-    return kinetic_energy(structure, solver.state()) + forces.potential_energy(solver.state()) - solver.work();
-  };
-  const double start = energy();
+  LiftedPendant run(Pendant{}, lift(0.1, 0.7, 0.5), method, h);
+  const double start = run.energy();
   double most = 0.0;
-  while (solver.state().time < end - 0.5 * h) solver.advance(), most = std::max(most, std::abs(energy() - start));
+  while (run.solver.state().time < end - 0.5 * h) {
+    run.solver.advance();
+    most = std::max(most, std::abs(run.energy() - start));
+  }
   return most;
 }
 
@@ -172,42 +185,28 @@ TEST(MovingPins, PutInTheWorkThatTheMotionGains) {
 
 // Slowly, all the work is weight times height, the pin's own included.
 TEST(MovingPins, WorkOfASlowLiftIsWeightTimesHeight) {
-  const Pendant pendant{.damping = 1.0};
-  const Structure structure = pendant.structure();
-  const Forces forces(structure, gravity);
-  Solver solver(structure, forces, options_of(forces, {{{0}, lift(1.0, 61.0, 0.5)}}, Method::verlet, 5e-3),
-                pendant.balanced(structure));
-  solver.sample(70.0);
-  const double weight = structure.mass.sum() * 9.81;
-  EXPECT_NEAR(solver.work(), weight * 0.5, 1e-3 * weight * 0.5);
+  LiftedPendant run(Pendant{.damping = 1.0}, lift(1.0, 61.0, 0.5), Method::verlet, 5e-3);
+  run.solver.sample(70.0);
+  const double weight = run.structure.mass.sum() * 9.81;
+  EXPECT_NEAR(run.solver.work(), weight * 0.5, 1e-3 * weight * 0.5);
 }
 
 // Damping only takes: what it takes is not what the pins did.
 TEST(MovingPins, LeaveDampingsLossAsALoss) {
-  const Pendant pendant{.damping = 0.5};
-  const Structure structure = pendant.structure();
-  const Forces forces(structure, gravity);
-  Solver solver(structure, forces, options_of(forces, {{{0}, lift(0.1, 0.7, 0.5)}}, Method::verlet, 5e-4),
-                pendant.balanced(structure));
+  LiftedPendant run(Pendant{.damping = 0.5}, lift(0.1, 0.7, 0.5), Method::verlet, 5e-4);
   double before = HUGE_VAL;
-  while (solver.state().time < 2.0) {
-    solver.advance();
-    const double energy =
-        kinetic_energy(structure, solver.state()) + forces.potential_energy(solver.state()) - solver.work();
-    EXPECT_LT(energy, before + 1e-6) << solver.state().time;
-    before = energy;
+  while (run.solver.state().time < 2.0) {
+    run.solver.advance();
+    EXPECT_LT(run.energy(), before + 1e-6) << run.solver.state().time;
+    before = run.energy();
   }
 }
 
 /// Where the pendant is at `end` [s].
 double height_at(Method method, double h, double end) {
-  const Pendant pendant;
-  const Structure structure = pendant.structure();
-  const Forces forces(structure, gravity);
-  Solver solver(structure, forces, options_of(forces, {{{0}, lift(0.25, 0.75, 0.5)}}, method, h),
-                pendant.balanced(structure));
-  while (solver.state().time < end - 0.5 * h) solver.advance();
-  return solver.state().position(1, 1);
+  LiftedPendant run(Pendant{}, lift(0.25, 0.75, 0.5), method, h);
+  while (run.solver.state().time < end - 0.5 * h) run.solver.advance();
+  return run.solver.state().position(1, 1);
 }
 
 // A pin that goes evenly during a step is off by h^2 a / 8 within it at most.
