@@ -13,8 +13,8 @@ namespace billow::sim {
 
 namespace {
 
-// For so many steps a detection leaves room, unless something speeds up.
-constexpr double steps_ahead = 4.0;
+// For so many steps a detection looks ahead at first, and at least and at most.
+constexpr double first_ahead = 4.0, least_ahead = 2.0, most_ahead = 32.0;
 // Of impulses, by attempt: with what was known, after a look of its own, and again.
 constexpr int sweeps[] = {5, 5, 20, 40};
 constexpr int last_attempt = 3;
@@ -40,7 +40,9 @@ void ContactModel::place_colliders(double time, Points& x) const {
   for (const SurfacePart& part : surface_.part) {
     if (part.is_body()) continue;
     const Eigen::Isometry3d place = options_.collider[part.collider].motion.at(time);
-    for (int v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) x[v] = place * surface_.rest[v];
+    const Eigen::Matrix3d turn = place.linear();
+    const Eigen::Vector3d shift = place.translation();
+    for (int v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) x[v] = turn * surface_.rest[v] + shift;
   }
 }
 
@@ -75,8 +77,16 @@ void Contact::find_spins() {
   }
 }
 
+// For twice as long ahead as before where that was all used up and for as long as it lasted where not.
 void Contact::detect() {
-  detection_.detect(from_, velocity_, time_, h_, steps_ahead);
+  if (!detection_.valid()) {
+    ahead_ = first_ahead;
+  } else {
+    const double lasted = std::round((time_ - detection_.time()) / h_);
+    ahead_ = time_ + h_ > detection_.expires() ? 2.0 * ahead_ : lasted;
+    ahead_ = std::clamp(ahead_, least_ahead, most_ahead);
+  }
+  detection_.detect(from_, velocity_, time_, h_, ahead_);
   impulses_.remember(detection_.pairs());
 }
 
@@ -99,12 +109,14 @@ void Contact::place_planes() {
 
 // [m] over the plane after that share of the step.
 double Contact::height_over(const Plane& plane, const Eigen::Vector3d& x, double share) const {
+  if (!plane.moves) return plane.normal.dot(x - plane.point);
   const Eigen::Vector3d point = plane.point + share * (plane.next_point - plane.point);
   return (plane.normal + share * (plane.next_normal - plane.normal)).normalized().dot(x - point);
 }
 
 void Contact::find_plane_contacts(const Points& x) {
   plane_contact_.clear();
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   for (int p = 0; p < static_cast<int>(plane_.size()); ++p)
     for (const SurfacePart& part : surface_.part) {
       if (!part.is_body()) continue;
@@ -113,15 +125,15 @@ void Contact::find_plane_contacts(const Points& x) {
       for (int v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
         if (surface_.inverse_mass[v] == 0.0) continue;
         const double gap = plane.normal.dot(x[v] - plane.point) - thickness;
-        const Eigen::Vector3d solid = (plane.turn * x[v] - x[v]) / h_;
+        const Eigen::Vector3d solid = plane.moves ? Eigen::Vector3d((plane.turn * x[v] - x[v]) / h_) : none;
         if (gap + h_ * plane.normal.dot(velocity_[v] - solid) > thickness) continue;
         plane_contact_.push_back({p, v, plane.normal, solid, gap, std::sqrt(part.friction * plane.friction)});
       }
     }
 }
 
-// Impulses by what was near when the surface was last looked at; a second look where that is used up, and more sweeps
-// where a blow takes them.
+// Impulses by what was near when the surface was last looked at; further looks where that is used up, each from the
+// velocities that a blow has left by then, and more sweeps.
 void Contact::apply(const State& state, const Move& move, Eigen::MatrixX3d& velocity) {
   gather(velocity, velocity_);
   gather(state.position, to_);
@@ -131,13 +143,13 @@ void Contact::apply(const State& state, const Move& move, Eigen::MatrixX3d& velo
   std::copy(from_.begin() + surface_.particles, from_.end(), start_.begin() + surface_.particles);
   work_ = 0.0;
   bool first = true;
-  for (int attempt = detection_.time() == time_ ? 1 : 0;; ++attempt, first = false) {
+  for (int attempt = 0;; ++attempt, first = false) {
     impulses_.apply(detection_.pairs(), plane_contact_, spin_, start_, h_, {first, sweeps[attempt]}, velocity_);
     work_ += impulses_.work();
     arrive(state, move);
     held_ = holds();
     if (held_ || attempt == last_attempt) break;
-    if (attempt == 0) detect();
+    if (detection_.time() != time_ || !detection_.has_room(to_, time_ + h_)) detect();
   }
   scatter(velocity_, velocity);
 }
@@ -202,8 +214,7 @@ void Contact::go_in_shares(State& state) {
   stopped_.assign(x.size(), false);
   double done = 0.0;
   for (int round = 0; done < 1.0; ++round) {
-    for (std::size_t i = 0; i < x.size(); ++i) velocity_[i] = way_[i] / h_;
-    detection_.detect_standing(x, velocity_, time_, h_);
+    detection_.detect_standing(x, way_, time_);
     keep_above_planes(x, done, way_);
     if (round > 0) {
       share_impulses_.remember(detection_.pairs());
@@ -233,7 +244,7 @@ void Contact::go_in_shares(State& state) {
     const Eigen::RowVector3d come = (x[i] - from_[i]) / h_;
     if (stopped_[i] && come.squaredNorm() < state.velocity.row(i).squaredNorm()) state.velocity.row(i) = come;
   }
-  detection_.forget();
+  detection_.expire();
 }
 
 // Names the body and what presses it: the pair that keeps something unstoppable back the most.

@@ -78,6 +78,7 @@ class Contact : public StepHook {
   std::vector<Plane> plane_;
   std::vector<PlaneContact> plane_contact_;
   double time_ = 0.0, h_ = 0.0, work_ = 0.0;
+  double ahead_ = 0.0;     // [steps] of the last look
   Points from_, to_;       // (N) [m] where the step begins and ends
   Points start_;           // (N) [m] from where the new velocities lead there
   bool held_ = true;       // whether all of that is within the cells

@@ -15,7 +15,7 @@ constexpr double settled = 1e-4;
 // Of what a vertex is within the thickness: pushed out a step (Bridson, Fedkiw & Anderson 2002), and the most [m/s].
 constexpr double push_share = 0.1, fastest_push = 0.1;
 // Of the thickness: contacts that would keep so much of it are not expected to act.
-constexpr double distant = 0.5;
+constexpr double distant = 0.1;
 
 }  // namespace
 
@@ -88,8 +88,10 @@ void Impulses::note(bool first) {
 }
 
 Eigen::Vector3d Impulses::relative_velocity(const Active& contact, const Points& v) const {
-  Eigen::Vector3d relative = -contact.solid_velocity;
-  for (int k = 0; k < contact.corners; ++k) relative += contact.weight[k] * v[contact.vertex[k]];
+  const auto& [a, b, c, d] = contact.vertex;
+  const auto& w = contact.weight;
+  Eigen::Vector3d relative = w[0] * v[a] + w[1] * v[b] + w[2] * v[c] + w[3] * v[d];
+  if (contact.solid >= 0) relative -= solid_velocity_[contact.solid];
   return relative;
 }
 
@@ -97,30 +99,44 @@ Eigen::Vector3d Impulses::relative_velocity(const Active& contact, const Points&
 // after all of them.
 double Impulses::energy_given(const Points& v) const {
   double sum = 0.0;
-  for (const Active& contact : active_)
-    sum += 0.5 * (contact.before + relative_velocity(contact, v))
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const Active& contact = active_[k];
+    if (contact.normal_impulse == 0.0) continue;
+    sum += 0.5 * (before_[k] + relative_velocity(contact, v))
                      .dot(contact.normal_impulse * contact.normal + contact.friction_impulse);
+  }
   return sum;
 }
 
 void Impulses::act(const Active& contact, const Eigen::Vector3d& impulse, Points& v) const {
-  for (int k = 0; k < contact.corners; ++k)
-    v[contact.vertex[k]] += contact.weight[k] * contact.inverse_mass[k] * impulse;
+  for (int k = 0; k < 4; ++k) {
+    const int i = contact.vertex[k];
+    v[i] += contact.weight[k] * surface_.inverse_mass[i] * impulse;
+  }
 }
 
-void Impulses::add(Active contact, double gap, double h) {
+void Impulses::add(Active contact, const Eigen::Vector3d* solid_velocity, double gap, double h) {
   double sum = 0.0;
-  for (int k = 0; k < contact.corners; ++k) {
-    contact.inverse_mass[k] = surface_.inverse_mass[contact.vertex[k]];
-    sum += contact.weight[k] * contact.weight[k] * contact.inverse_mass[k];
+  bool driven = solid_velocity != nullptr;
+  for (int k = 0; k < 4; ++k) {
+    const double inverse_mass = surface_.inverse_mass[contact.vertex[k]];
+    sum += contact.weight[k] * contact.weight[k] * inverse_mass;
+    driven = driven || inverse_mass == 0.0;
   }
   if (sum == 0.0) return;
   contact.mass = 1.0 / sum;
   contact.least = gap > 0.0 ? -gap / h : 0.0;
+  const int number = static_cast<int>(active_.size());
+  if (driven) driven_.push_back(number);
+  if (solid_velocity) {
+    contact.solid = static_cast<int>(solid_velocity_.size());
+    solid_velocity_.push_back(*solid_velocity);
+  }
   active_.push_back(contact);
   if (gap >= 0.0) return;
-  pushing_.push_back({static_cast<int>(active_.size()) - 1, std::min(push_share * -gap, fastest_push * h)});
-  for (int k = 0; k < contact.corners; ++k) ++pushes_on_[contact.vertex[k]];
+  pushing_.push_back({number, std::min(push_share * -gap, fastest_push * h)});
+  for (int k = 0; k < 4; ++k)
+    if (contact.weight[k] != 0.0) ++pushes_on_[contact.vertex[k]];
 }
 
 // Both sides by shares that leave their common centre where it is. A vertex in several contacts is asked by each for
@@ -129,17 +145,16 @@ void Impulses::find_push() {
   for (const Pushing& pushing : pushing_) {
     const Active& contact = active_[pushing.contact];
     int most = 1;
-    for (int k = 0; k < contact.corners; ++k) most = std::max(most, pushes_on_[contact.vertex[k]]);
+    for (const int i : contact.vertex) most = std::max(most, pushes_on_[i]);
     const double impulse = contact.mass * pushing.way / most;
-    for (int k = 0; k < contact.corners; ++k)
-      push_[contact.vertex[k]] += contact.weight[k] * contact.inverse_mass[k] * impulse * contact.normal;
+    act(contact, impulse * contact.normal, push_);
   }
 }
 
 void Impulses::forget_push() {
   for (const Pushing& pushing : pushing_) {
     const Active& contact = active_[pushing.contact];
-    for (int k = 0; k < contact.corners; ++k) push_[contact.vertex[k]].setZero(), pushes_on_[contact.vertex[k]] = 0;
+    for (const int i : contact.vertex) push_[i].setZero(), pushes_on_[i] = 0;
   }
   pushing_.clear();
 }
@@ -153,44 +168,37 @@ Eigen::Vector3d Impulses::turning(const ContactPair& pair, const Points& spin) c
 void Impulses::gather(const std::vector<ContactPair>& pairs, const std::vector<PlaneContact>& planes,
                       const Points& spin, const Points& x, double h, const Points& v) {
   forget_push();
-  active_.clear();
+  active_.clear(), driven_.clear(), solid_velocity_.clear();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const ContactPair& pair = pairs[p];
     if (!pair.acts) continue;
-    Eigen::Vector3d difference = Eigen::Vector3d::Zero(), speed = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k) {
-      difference += pair.weight[k] * x[pair.vertex[k]];
-      speed += pair.weight[k] * v[pair.vertex[k]];
-    }
+    const auto& [a, b, c, d] = pair.vertex;
+    const auto& w = pair.weight;
+    const Eigen::Vector3d difference = w[0] * x[a] + w[1] * x[b] + w[2] * x[c] + w[3] * x[d];
+    const Eigen::Vector3d speed = w[0] * v[a] + w[1] * v[b] + w[2] * v[c] + w[3] * v[d];
     const double gap = pair.normal.dot(difference) - pair.radius - pair.thickness;
     if (gap + h * pair.normal.dot(speed) > distant * pair.thickness) continue;
-    add({.corners = 4,
-         .vertex = pair.vertex,
+    const Eigen::Vector3d turn = pair.radius > 0.0 ? turning(pair, spin) : Eigen::Vector3d::Zero();
+    add({.vertex = pair.vertex,
          .weight = pair.weight,
-         .inverse_mass = {},
          .normal = pair.normal,
-         .solid_velocity = pair.radius > 0.0 ? turning(pair, spin) : Eigen::Vector3d::Zero(),
-         .before = Eigen::Vector3d::Zero(),
-         .memory = static_cast<int>(p),
          .least = 0.0,
          .mass = 0.0,
-         .friction = pair.friction},
-        gap, h);
+         .friction = pair.friction,
+         .memory = static_cast<int>(p)},
+        pair.radius > 0.0 ? &turn : nullptr, gap, h);
   }
   for (const PlaneContact& plane : planes) {
     if (plane.gap + h * plane.normal.dot(v[plane.vertex] - plane.velocity) > 0.0 && plane.gap > 0.0) continue;
-    add({.corners = 1,
-         .vertex = {plane.vertex, 0, 0, 0},
+    const int i = plane.vertex;
+    add({.vertex = {i, i, i, i},
          .weight = {1.0, 0.0, 0.0, 0.0},
-         .inverse_mass = {},
          .normal = plane.normal,
-         .solid_velocity = plane.velocity,
-         .before = Eigen::Vector3d::Zero(),
-         .memory = static_cast<int>(known_.size() + plane.plane * surface_.rest.size()) + plane.vertex,
          .least = 0.0,
          .mass = 0.0,
-         .friction = plane.friction},
-        plane.gap, h);
+         .friction = plane.friction,
+         .memory = static_cast<int>(known_.size() + plane.plane * surface_.rest.size()) + i},
+        &plane.velocity, plane.gap, h);
   }
 }
 
@@ -215,9 +223,10 @@ double Impulses::solve(Active& contact, Points& v) const {
 }
 
 double Impulses::work_of(const Active& contact, const Points& v) const {
-  Eigen::Vector3d velocity = contact.solid_velocity;
-  for (int k = 0; k < contact.corners; ++k)
-    if (contact.inverse_mass[k] == 0.0) velocity -= contact.weight[k] * v[contact.vertex[k]];
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  if (contact.solid >= 0) velocity = solid_velocity_[contact.solid];
+  for (int k = 0; k < 4; ++k)
+    if (surface_.inverse_mass[contact.vertex[k]] == 0.0) velocity -= contact.weight[k] * v[contact.vertex[k]];
   return velocity.dot(contact.normal_impulse * contact.normal + contact.friction_impulse);
 }
 
@@ -225,8 +234,9 @@ void Impulses::apply(const std::vector<ContactPair>& pairs, const std::vector<Pl
                      const Points& x, double h, const Call& call, Points& v) {
   gather(pairs, planes, spin, x, h, v);
   find_push();
-  for (Active& contact : active_) contact.before = relative_velocity(contact, v);
   if (call.first) {
+    before_.clear();
+    for (const Active& contact : active_) before_.push_back(relative_velocity(contact, v));
     at_first_ = v;
     start_from_memory(v);
   }
@@ -237,7 +247,7 @@ void Impulses::apply(const std::vector<ContactPair>& pairs, const std::vector<Pl
     solve_all(call.sweeps, v);
   }
   work_ = 0.0;
-  for (const Active& contact : active_) work_ += work_of(contact, v);
+  for (const int k : driven_) work_ += work_of(active_[k], v);
   note(call.first);
 }
 

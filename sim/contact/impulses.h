@@ -54,20 +54,18 @@ class Impulses {
   double work() const { return work_; }
 
  private:
-  /// A contact that may have to act in this step.
+  /// A contact that may have to act in this step. Sweeps read all of them again and again: it holds what they need.
   struct Active {
-    int corners;
-    std::array<int, 4> vertex;
+    std::array<int, 4> vertex;  // of a contact with a half-space the same one, with no weight but once
     std::array<double, 4> weight;
-    std::array<double, 4> inverse_mass;
-    Eigen::Vector3d normal, solid_velocity;
-    Eigen::Vector3d before;  // [m/s] the sides' relative velocity before any impulse
-    int memory;              // its place there
-    double least;            // [m/s] of the sides' relative velocity along the normal
-    double mass;             // [kg] effective
+    Eigen::Vector3d normal;
+    double least;  // [m/s] of the sides' relative velocity along the normal
+    double mass;   // [kg] effective
     double friction;
     double normal_impulse = 0.0;                                 // [N s] so far
     Eigen::Vector3d friction_impulse = Eigen::Vector3d::Zero();  // [N s]
+    int memory;                                                  // its place there
+    int solid = -1;                                              // its place in solid_velocity_; -1: none
   };
   /// One whose sides are within their thickness.
   struct Pushing {
@@ -77,7 +75,7 @@ class Impulses {
   Eigen::Vector3d turning(const ContactPair& pair, const Points& spin) const;
   void gather(const std::vector<ContactPair>& pairs, const std::vector<PlaneContact>& planes, const Points& spin,
               const Points& x, double h, const Points& v);
-  void add(Active contact, double gap, double h);
+  void add(Active contact, const Eigen::Vector3d* solid_velocity, double gap, double h);
   void find_push();
   void forget_push();
   void start_from_memory(Points& v);
@@ -100,6 +98,9 @@ class Impulses {
   std::vector<double> last_;               // [N s] normal impulses of the step before, where memory_ has this one's
   Points at_first_;                        // velocities that a solution starts from
   std::vector<Active> active_;
+  std::vector<int> driven_;  // of the active, those that something touches which no contact moves
+  Points solid_velocity_;    // [m/s] of what is solid and moves within its vertices' motion, or has none
+  Points before_;            // [m/s] the active's sides' relative velocity before any impulse
   Points push_;
   std::vector<Pushing> pushing_;
   std::vector<int> pushes_on_;  // (N)

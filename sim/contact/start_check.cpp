@@ -103,8 +103,8 @@ void check_out_of(const SurfacePart& body, const SurfacePart& rounded, const Con
 
 void check_apart(const ContactSurface& surface, const Points& x) {
   std::vector<BoxTree> tree;
-  const std::vector<double> none(x.size(), 0.0);
-  for (const SurfacePart& part : surface.part) tree.emplace_back(surface, part).refit(x, none);
+  const std::vector<double> touching(x.size(), 1e-12);  // [m] boxes that touch count as near
+  for (const SurfacePart& part : surface.part) tree.emplace_back(surface, part).refit(x, x, touching);
   for (std::size_t a = 0; a < tree.size(); ++a)
     for (std::size_t b = a; b < tree.size(); ++b) {
       const SurfacePart &first = surface.part[a], &second = surface.part[b];
@@ -115,11 +115,10 @@ void check_apart(const ContactSurface& surface, const Points& x) {
       }
       PairCheck check(surface, x, first, second);
       std::vector<BoxTree::Task> tasks;
-      constexpr double touching = 1e-12;  // [m] boxes that touch count as near
-      BoxTree::split(tree[a], tree[b], touching, tasks);
+      BoxTree::split(tree[a], tree[b], tasks);
       for (const BoxTree::Task& task : tasks) {
         std::vector<FacePair> pairs;
-        BoxTree::pairs(task, touching, pairs);
+        BoxTree::pairs(task, pairs);
         for (const FacePair& pair : pairs) check.look(pair);
       }
       check.report();
