@@ -23,6 +23,9 @@ one fish 60 textured fish "${small[@]}"
 one sphere 30 textured sphere "${small[@]}" -D duration=1.4
 one table 34 textured table "${small[@]}" -D duration=1.5
 one flag 60 textured flag "${small[@]}" -D duration=2.5
+one curtain 75 textured curtain "${small[@]}" -D duration=3.1
+one stack 7 textured stack "${small[@]}" -D duration=0.3
+one funnel 29 textured funnel "${small[@]}" -D duration=1.25
 # The same fall without a filter, with a force filter and with a velocity filter: the picture at 3.4 s, the strip of 5 s.
 filters() {
   local name=$1

@@ -14,6 +14,9 @@ namespace {
 constexpr double settled = 1e-4;
 // Of what a vertex is within the thickness: pushed out a step (Bridson, Fedkiw & Anderson 2002), and the most [m/s].
 constexpr double push_share = 0.1, fastest_push = 0.1;
+// Where all that could give way is hardly part of a contact, as next to pins, it is not thrown aside for it: its share
+// of the contact's inverse mass counts as at least so much.
+constexpr double least_part = 0.01;
 // Of the thickness: contacts that would keep so much of it are not expected to act.
 constexpr double distant = 0.1;
 
@@ -116,15 +119,16 @@ void Impulses::act(const Active& contact, const Eigen::Vector3d& impulse, Points
 }
 
 void Impulses::add(Active contact, const Eigen::Vector3d* solid_velocity, double gap, double h) {
-  double sum = 0.0;
+  double sum = 0.0, lightest = 0.0;
   bool driven = solid_velocity != nullptr;
   for (int k = 0; k < 4; ++k) {
     const double inverse_mass = surface_.inverse_mass[contact.vertex[k]];
     sum += contact.weight[k] * contact.weight[k] * inverse_mass;
+    lightest = std::max(lightest, inverse_mass);
     driven = driven || inverse_mass == 0.0;
   }
   if (sum == 0.0) return;
-  contact.mass = 1.0 / sum;
+  contact.mass = 1.0 / std::max(sum, least_part * lightest);
   contact.least = gap > 0.0 ? -gap / h : 0.0;
   const int number = static_cast<int>(active_.size());
   if (driven) driven_.push_back(number);

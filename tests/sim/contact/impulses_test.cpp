@@ -57,6 +57,19 @@ TEST(Impulses, StopTwoEdgesThatMeetAtTheirMiddles) {
   EXPECT_LT((crossed.momentum() - Eigen::Vector3d(0.0, -4.0, 0.0)).norm(), 1e-13);
 }
 
+// All but one corner are held, and that one is hardly part of the contact: as beside a pin that is pressed on.
+TEST(Impulses, ThrowNothingAsideThatHardlyTakesPart) {
+  Crossed crossed(0.0);
+  Structure& structure = crossed.scene.structure;
+  structure.rest_position.col(2).head(3).array() -= 1.0 - 1e-9;
+  structure.inverse_mass.setZero();
+  structure.inverse_mass(4) = 1.0;
+  crossed.surface.emplace(structure, crossed.scene.contact);
+  for (int i = 0; i < 3; ++i) crossed.velocity[i] = {0.0, -2.0, 0.0};
+  crossed.touch();
+  EXPECT_LT(crossed.velocity[4].norm(), 1.0);
+}
+
 TEST(Impulses, LetAGapBeClosedWithinTheStepAndNoMore) {
   constexpr double gap = 0.0008;
   Crossed crossed(gap);

@@ -10,11 +10,13 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "sim/body/momenta.h"
 #include "sim/filter/body_motion.h"
 #include "sim/filter/filter.h"
 #include "sim/filter/level_shares.h"
 #include "sim/filter/spring_bound.h"
 #include "sim/force/forces.h"
+#include "sim/step/solver.h"
 #include "tests/support/dense_levels.h"
 #include "tests/support/evaluations.h"
 #include "tests/support/filters.h"
@@ -368,6 +370,28 @@ TEST(LevelFilter, MovesAndKicksByWhatItApplies) {
   for_every_filter([](const Structure& structure, const Filter& filter) {
     test::expect_moves_and_kicks_as_applied(filter, structure, shaken_state(structure, 0.01, 1.0));
   });
+}
+
+// What acts on one particle and knows its mass alone, as an impulse of contact does, puts in more energy than that mass
+// says: in the filtered motion v^T M F^-1 v / 2 counts, and the springs get it all.
+TEST(LevelFilter, ABlowWeighsAsMuchAsTheFilteredMotionDoes) {
+  const Structure cloth = test::light_cloth(12, 12);
+  const Forces forces(cloth, Eigen::Vector3d::Zero());
+  const auto gain = [&](const std::optional<FilterOptions>& filter) {
+    State struck = rest_state(cloth);
+    struck.velocity(5 * 12 + 6, 0) = 0.01;
+    const double blow = kinetic_energy(cloth, struck);
+    Solver solver(cloth, forces, {.method = Method::verlet, .filter = filter, .step = 2e-4}, struck);
+    double most = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      solver.advance();
+      most = std::max(most, kinetic_energy(cloth, solver.state()) + forces.potential_energy(solver.state()));
+    }
+    return most / blow;
+  };
+  EXPECT_NEAR(gain({}), 1.0, 1e-3);
+  EXPECT_GT(gain(levels(3.0)), 4.0);
+  EXPECT_GT(gain(levels(6.0)), 16.0);
 }
 
 }  // namespace
