@@ -5,13 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "bench/report.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/simulation.h"
 
@@ -63,12 +63,6 @@ void write_grid(const std::filesystem::path& file, int side) {
     }
 }
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double clock_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -83,10 +77,10 @@ Times time_of(const Case& which, bool touching, const std::string& mesh) {
   const auto solver = simulation.make_solver(simulation.choose_step());
   while (solver->state().time < which.begin) solver->advance();
   const long steps = solver->steps();
-  const double clock = clock_seconds(), processor = processor_seconds();
+  const double clock = clock_seconds(), processor = bench::processor_seconds();
   while (solver->state().time < which.end) solver->advance();
   const auto taken = static_cast<double>(solver->steps() - steps);
-  return {(clock_seconds() - clock) / taken, (processor_seconds() - processor) / taken, solver->step(),
+  return {(clock_seconds() - clock) / taken, (bench::processor_seconds() - processor) / taken, solver->step(),
           simulation.structure().particles()};
 }
 
@@ -150,11 +144,4 @@ int run(bool as_json) {
 }  // namespace
 }  // namespace billow
 
-int main(int argc, char** argv) {
-  const std::string option = argc > 1 ? argv[1] : "";
-  if (argc > 2 || (!option.empty() && option != "--json")) {
-    fmt::print(stderr, "usage: billow_bench_contact [--json]\n");
-    return 2;
-  }
-  return billow::run(option == "--json");
-}
+int main(int argc, char** argv) { return billow::bench::report_main(argc, argv, billow::run); }

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "bench/report.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/simulation.h"
 #include "sim/body/momenta.h"
@@ -70,12 +70,6 @@ cli::Scene scene_of(const std::string& file, const Case& which) {
   std::vector<cli::Override> overrides = which.overrides;
   overrides.push_back({"bodies.0.cloth.damping.friction", "0"});
   return cli::read_scene(file, overrides);
-}
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // How far the centre of mass is from the vertical plane through the pins, in the direction in which it started.
@@ -137,9 +131,9 @@ double cost_of(const cli::Simulation& simulation, const cli::StepChoice& choice,
   double least = INFINITY;
   for (int r = 0; r < repetitions; ++r) {
     const auto solver = simulation.make_solver(choice);
-    const double begin = processor_seconds();
+    const double begin = bench::processor_seconds();
     while (solver->state().time < timed) solver->advance();
-    least = std::min(least, (processor_seconds() - begin) / solver->state().time);
+    least = std::min(least, (bench::processor_seconds() - begin) / solver->state().time);
     iterations = static_cast<double>(solver->solve_counts().iterations) / static_cast<double>(solver->steps());
   }
   return least;
@@ -199,11 +193,4 @@ int run(bool as_json) {
 }  // namespace
 }  // namespace billow
 
-int main(int argc, char** argv) {
-  const std::string option = argc > 1 ? argv[1] : "";
-  if (argc > 2 || (!option.empty() && option != "--json")) {
-    fmt::print(stderr, "usage: billow_bench_filtering [--json]\n");
-    return 2;
-  }
-  return billow::run(option == "--json");
-}
+int main(int argc, char** argv) { return billow::bench::report_main(argc, argv, billow::run); }

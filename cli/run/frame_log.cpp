@@ -2,7 +2,6 @@
 #include "cli/run/frame_log.h"
 
 #include <algorithm>
-
 #include <array>
 
 namespace billow::cli {

@@ -1,12 +1,11 @@
 // Building, refitting and pairing trees of boxes.
 #include "sim/contact/box_tree.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <numeric>
 #include <set>
-
-#include <Eigen/Geometry>
 
 #include "base/parallel.h"
 

@@ -56,4 +56,14 @@ Eigen::Vector2d nearest_on_segments(const Eigen::Vector3d& p0, const Eigen::Vect
   return {s, t};
 }
 
+Nearest nearest_points(const std::array<int, 4>& vertex, int on_a, const std::vector<Eigen::Vector3d>& x) {
+  const Eigen::Vector3d &a = x[vertex[0]], &b = x[vertex[1]], &c = x[vertex[2]], &d = x[vertex[3]];
+  if (on_a == 1) {
+    const Eigen::Vector3d at = nearest_in_triangle(a, b, c, d);
+    return {{1.0, -at(0), -at(1), -at(2)}, a - at(0) * b - at(1) * c - at(2) * d};
+  }
+  const Eigen::Vector2d at = nearest_on_segments(a, b, c, d);
+  return {{1.0 - at(0), at(0), at(1) - 1.0, -at(1)}, (1.0 - at(0)) * a + at(0) * b - (1.0 - at(1)) * c - at(1) * d};
+}
+
 }  // namespace billow::sim

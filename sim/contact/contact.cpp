@@ -283,8 +283,7 @@ void check_above(const ContactModel& model, const SurfacePart& part, int half_sp
   }
   if (below == 0) return;
   throw StartError(fmt::format("{} of the {} vertices of '{}' start inside '{}', vertex {} the deepest, by {:.3g} m; "
-                               "move them apart, or say "
-                               "'contact: none'",
+                               "move them apart, or say 'contact: none'",
                                below, part.vertices, part.name, collider.name, lowest - part.first_vertex,
                                normal.dot(point - x[lowest])),
                    part.body);

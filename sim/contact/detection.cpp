@@ -34,7 +34,7 @@ Detection::Detection(const ContactSurface& surface)
 // `way` (N) [m] is how far a vertex may stray, as far as that is known.
 void Detection::set_margin(const Points* way) {
   for (const SurfacePart& part : surface_.part) {
-    const double least = least_margin * part.thickness, most = std::max(least, neighbourhood_.room());
+    const double least = least_margin * part.thickness, most = neighbourhood_.room(part);
     for (int i = part.first_vertex; i < part.first_vertex + part.vertices; ++i) {
       margin_[i] = way ? std::clamp((*way)[i].norm(), least, most) : least;
       reach_[i] = part.radius + part.thickness + margin_[i];
@@ -86,9 +86,10 @@ void Detection::add(const Features& features, std::vector<ContactPair>& found) c
   const double near = reach[0] + reach[1];
   if (are_kept_apart(features, x_, then_, near)) return;
   ContactPair pair{.vertex = v, .weight = {}, .on_a = features.on_a};
-  const Eigen::Vector3d difference = set_nearest(pair);
+  const auto [weight, difference] = nearest_points(v, pair.on_a, x_);
   const double approach = (expires_ - time_) * largest_difference(pair);
   if (difference.squaredNorm() >= (near + approach) * (near + approach)) return;
+  pair.weight = weight;
   settle(features, difference, pair);
   found.push_back(pair);
 }
@@ -100,20 +101,6 @@ double Detection::largest_difference(const ContactPair& pair) const {
     for (int l = pair.on_a; l < 4; ++l)
       square = std::max(square, (v_[pair.vertex[k]] - v_[pair.vertex[l]]).squaredNorm());
   return std::sqrt(square);
-}
-
-// Their weights; returned, what they differ by [m].
-Eigen::Vector3d Detection::set_nearest(ContactPair& pair) const {
-  const auto& v = pair.vertex;
-  const Eigen::Vector3d &a = x_[v[0]], &b = x_[v[1]], &c = x_[v[2]], &d = x_[v[3]];
-  if (pair.on_a == 1) {
-    const Eigen::Vector3d at = nearest_in_triangle(a, b, c, d);
-    pair.weight = {1.0, -at(0), -at(1), -at(2)};
-    return a - at(0) * b - at(1) * c - at(2) * d;
-  }
-  const Eigen::Vector2d at = nearest_on_segments(a, b, c, d);
-  pair.weight = {1.0 - at(0), at(0), at(1) - 1.0, -at(1)};
-  return (1.0 - at(0)) * a + at(0) * b - (1.0 - at(1)) * c - at(1) * d;
 }
 
 // What follows from the nearest points: normal, thickness, friction, the plane.
@@ -130,7 +117,7 @@ void Detection::settle(const Features& features, const Eigen::Vector3d& differen
   if (&a == &b) {
     const double wide = pair.thickness;
     if (distance < wide || wide > wide_edges * a.edge_length)
-      pair.thickness = std::min(wide, rest_share * rest_distance(pair));
+      pair.thickness = std::min(wide, rest_share * nearest_points(v, pair.on_a, surface_.rest).difference.norm());
   }
   pair.radius = a.radius + b.radius;
   pair.friction = std::sqrt(a.friction * b.friction);
@@ -171,17 +158,6 @@ bool Detection::acts(int e, int f, const ContactPair& pair) const {
   if (rounded(e)) return inner_e && answers(f, at_f);
   if (rounded(f)) return inner_f && answers(e, at_e);
   return inner_e && inner_f;
-}
-
-double Detection::rest_distance(const ContactPair& pair) const {
-  const Points& rest = surface_.rest;
-  const auto& v = pair.vertex;
-  if (pair.on_a == 1) {
-    const Eigen::Vector3d w = nearest_in_triangle(rest[v[0]], rest[v[1]], rest[v[2]], rest[v[3]]);
-    return (rest[v[0]] - w(0) * rest[v[1]] - w(1) * rest[v[2]] - w(2) * rest[v[3]]).norm();
-  }
-  const Eigen::Vector2d at = nearest_on_segments(rest[v[0]], rest[v[1]], rest[v[2]], rest[v[3]]);
-  return ((1.0 - at(0)) * rest[v[0]] + at(0) * rest[v[1]] - (1.0 - at(1)) * rest[v[2]] - at(1) * rest[v[3]]).norm();
 }
 
 // Between the corners as they are and as their velocities lead them until the look expires, so that it is right however

@@ -39,7 +39,7 @@ class Detection {
   long number() const { return number_; }
   long searches() const { return searches_; }
 
-  /// Near pairs, in an order that depends on the surface alone.
+  /// Near pairs, in an order that no number of threads changes.
   const std::vector<ContactPair>& pairs() const { return pair_; }
   /// Whether the vertices at `y` (N) are in their balls at `time`.
   bool has_room(const Points& y, double time) const;
@@ -56,10 +56,8 @@ class Detection {
   void add(const Features& features, std::vector<ContactPair>& found) const;
   double largest_difference(const ContactPair& pair) const;
   bool within_bounds(const ContactPair& pair, const Points& y, double t) const;
-  Eigen::Vector3d set_nearest(ContactPair& pair) const;
   void settle(const Features& features, const Eigen::Vector3d& difference, ContactPair& pair) const;
   void put_plane(ContactPair& pair) const;
-  double rest_distance(const ContactPair& pair) const;
   bool acts(int e, int f, const ContactPair& pair) const;
   bool owns(int f, const ContactPair& pair) const;
 

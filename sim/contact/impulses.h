@@ -99,7 +99,7 @@ class Impulses {
   Points at_first_;                        // velocities that a solution starts from
   std::vector<Active> active_;
   std::vector<int> driven_;  // of the active, those that something touches which no contact moves
-  Points solid_velocity_;    // [m/s] of what is solid and moves within its vertices' motion, or has none
+  Points solid_velocity_;    // [m/s] of half-spaces, and of what turns about its one point or segment
   Points before_;            // [m/s] the active's sides' relative velocity before any impulse
   Points push_;
   std::vector<Pushing> pushing_;

@@ -40,16 +40,15 @@ Neighbourhood::Neighbourhood(const ContactSurface& surface)
       then_(surface.rest.size()),
       face_velocity_(surface.face.size()),
       face_spread_(surface.face.size()) {
-  double edge = INFINITY, thickness = 0.0;
+  double edge = INFINITY;
   for (const SurfacePart& part : surface.part) {
     tree_.emplace_back(surface, part);
     if (part.is_body() && part.faces > 0) edge = std::min(edge, part.edge_length);
-    thickness = std::max(thickness, part.thickness);
   }
-  room_ = std::max(room_thicknesses * thickness, std::isinf(edge) ? 0.0 : room_edges * edge);
+  if (!std::isinf(edge)) edge_room_ = room_edges * edge;
   for (const SurfacePart& part : surface.part)
     for (int i = part.first_vertex; i < part.first_vertex + part.vertices; ++i)
-      reach_[i] = part.radius + part.thickness + room_;
+      reach_[i] = part.radius + part.thickness + room(part);
   faces_of_.resize(surface.rest.size());
   changed_.assign(surface.face.size(), 0);
   answers_[0].assign(surface.rest.size(), -1), answers_[1].assign(surface.edge.size(), -1);
@@ -86,6 +85,10 @@ void Neighbourhood::find_rings() {
   ring_.apart.assign(surface_.rest.size(), 0.0);
 }
 
+double Neighbourhood::room(const SurfacePart& part) const {
+  return std::max(room_thicknesses * part.thickness, edge_room_);
+}
+
 bool Neighbourhood::cover(const Points& x, const Points& v, const std::vector<double>& margin, const Span& span) {
   if (valid_ && span.last <= time_ + ahead_) {
     find_strays(x, v, margin, span);
@@ -107,7 +110,7 @@ void Neighbourhood::find_strays(const Points& x, const Points& v, const std::vec
   bool left = false;
   for (const SurfacePart& part : surface_.part)
     for (int i = part.first_vertex; i < part.first_vertex + part.vertices; ++i) {
-      const double room = std::max(0.0, room_ - margin[i]);
+      const double room = std::max(0.0, this->room(part) - margin[i]);
       const Eigen::Vector3d off = x[i] - x_[i] - now * v_[i];
       const double square = std::max(off.squaredNorm(), (off + step * (v[i] - v_[i])).squaredNorm());
       if (square <= 0.25 * room * room) continue;
@@ -188,9 +191,11 @@ bool Neighbourhood::are_paired(int p, int q) const {
 bool Neighbourhood::holds(const Points& y, double time) const {
   if (!valid_ || time > time_ + ahead_) return false;
   const double t = time - time_;
-  for (const SurfacePart& part : surface_.part)
+  for (const SurfacePart& part : surface_.part) {
+    const double most = room(part);
     for (int i = part.first_vertex; i < part.first_vertex + part.vertices; ++i)
-      if (!((y[i] - x_[i] - t * v_[i]).squaredNorm() <= room_ * room_)) return false;
+      if (!((y[i] - x_[i] - t * v_[i]).squaredNorm() <= most * most)) return false;
+  }
   return true;
 }
 
@@ -205,7 +210,7 @@ void Neighbourhood::choose_ahead(double time, double ahead) {
   const double spread =
       std::sqrt(std::inner_product(face_spread_.begin(), face_spread_.end(), face_spread_.begin(), 0.0) /
                 static_cast<double>(face_spread_.size()));
-  if (spread > 0.0) ahead_ = std::min(ahead_, room_ / spread);
+  if (spread > 0.0) ahead_ = std::min(ahead_, edge_room_ / spread);
   ahead_ = std::clamp(ahead_, ahead, most_looks * ahead);
 }
 
@@ -316,7 +321,7 @@ double Neighbourhood::ring_distance(int w) const {
   double square = INFINITY;
   for (int p = ring_.first_pair[w]; p < ring_.first_pair[w + 1]; ++p)
     for_each_features(ring_.pair[p], [&](const Features& features) {
-      square = std::min(square, difference_of(features).squaredNorm());
+      square = std::min(square, nearest_points(features.vertex, features.on_a, x_).difference.squaredNorm());
     });
   return std::sqrt(square);
 }
@@ -331,25 +336,14 @@ Features Neighbourhood::edge_edge(int e, int f) const {
   return {2, e, f, {i[0], i[1], j[0], j[1]}};
 }
 
-// [m] between their nearest points.
-Eigen::Vector3d Neighbourhood::difference_of(const Features& features) const {
-  const auto& v = features.vertex;
-  const Eigen::Vector3d &a = x_[v[0]], &b = x_[v[1]], &c = x_[v[2]], &d = x_[v[3]];
-  if (features.on_a == 1) {
-    const Eigen::Vector3d at = nearest_in_triangle(a, b, c, d);
-    return a - at(0) * b - at(1) * c - at(2) * d;
-  }
-  const Eigen::Vector2d at = nearest_on_segments(a, b, c, d);
-  return (1.0 - at(0)) * a + at(0) * b - (1.0 - at(1)) * c - at(1) * d;
-}
-
 bool Neighbourhood::may_meet(const Features& features, double approach) const {
   const auto& v = features.vertex;
   const double second = std::max(reach_[v[2]], reach_[v[3]]);
   const double near = features.on_a == 1 ? reach_[v[0]] + std::max(reach_[v[1]], second)
                                          : std::max(reach_[v[0]], reach_[v[1]]) + second;
   if (are_kept_apart(features, x_, then_, near)) return false;
-  return difference_of(features).squaredNorm() < (near + approach) * (near + approach);
+  return nearest_points(features.vertex, features.on_a, x_).difference.squaredNorm() <
+         (near + approach) * (near + approach);
 }
 
 bool are_kept_apart(const Features& features, const Points& now, const Points& then, double apart) {

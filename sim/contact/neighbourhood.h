@@ -37,8 +37,8 @@ class Neighbourhood {
   bool holds(const Points& y, double time) const;
   void forget() { valid_ = false; }
 
-  /// [m] the largest margin that there may be.
-  double room() const { return room_; }
+  /// [m] how far a vertex of the part may be from where it was expected, and the largest margin that it may have.
+  double room(const SurfacePart& part) const;
   /// All features that are or may come within their thicknesses and margins, and others; in an order that
   /// the trees and the motion fix.
   const std::vector<Features>& features() const { return features_; }
@@ -58,7 +58,6 @@ class Neighbourhood {
   Features point_face(int v, int f) const;
   Features edge_edge(int e, int f) const;
   bool may_meet(const Features& features, double approach) const;
-  Eigen::Vector3d difference_of(const Features& features) const;
   /// Pairs of triangles that share a vertex: around each vertex those of which it is the first that they share. Its
   /// ring is all other corners of the triangles around it.
   struct Rings {
@@ -78,7 +77,7 @@ class Neighbourhood {
   const ContactSurface& surface_;
   std::vector<BoxTree> tree_;  // of each part
   Rings ring_;
-  double room_ = 0.0;          // [m] how far a vertex may be from where it was expected
+  double edge_room_ = 0.0;     // [m] how far from where it was expected every vertex may be at least
   std::vector<double> reach_;  // (N) [m] how far around each was searched
   bool valid_ = false;
   double time_ = 0.0, ahead_ = 0.0;         // [s]
