@@ -24,25 +24,30 @@ constexpr double distant = 0.1;
 
 namespace {
 
-struct HashOfCorners {
-  std::size_t operator()(const std::array<int, 4>& corner) const {
+struct HashOfKey {
+  std::size_t operator()(const std::array<int, 5>& key) const {
     std::uint64_t hash = 0;
-    for (const int v : corner) hash = (hash ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
+    for (const int v : key) hash = (hash ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
     return hash;
   }
 };
 
 }  // namespace
 
+Impulses::Key Impulses::key_of(const ContactPair& pair) {
+  const auto& [a, b, c, d] = pair.vertex;
+  return {pair.on_a, a, b, c, d};
+}
+
 void Impulses::remember(const std::vector<ContactPair>& pairs) {
-  std::unordered_map<std::array<int, 4>, Memory, HashOfCorners> before;
+  std::unordered_map<Key, Memory, HashOfKey> before;
   for (std::size_t k = 0; k < known_.size(); ++k)
     if (memory_[k].normal > 0.0) before.emplace(known_[k], memory_[k]);
   const std::vector<Memory> planes(memory_.begin() + static_cast<std::ptrdiff_t>(known_.size()), memory_.end());
   known_.clear(), memory_.clear();
   for (const ContactPair& pair : pairs) {
-    known_.push_back(pair.vertex);
-    const auto found = pair.acts ? before.find(pair.vertex) : before.end();
+    known_.push_back(key_of(pair));
+    const auto found = pair.acts ? before.find(known_.back()) : before.end();
     memory_.push_back(found == before.end() ? Memory{} : found->second);
   }
   memory_.insert(memory_.end(), planes.begin(), planes.end());

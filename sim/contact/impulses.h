@@ -93,10 +93,13 @@ class Impulses {
     double normal = 0.0, lasting = 0.0;                  // [N s]
     Eigen::Vector3d friction = Eigen::Vector3d::Zero();  // [N s]
   };
-  std::vector<std::array<int, 4>> known_;  // the pairs that are remembered
-  std::vector<Memory> memory_;             // theirs, and then by half-space and vertex
-  std::vector<double> last_;               // [N s] normal impulses of the step before, where memory_ has this one's
-  Points at_first_;                        // velocities that a solution starts from
+  /// on_a and the corners: a vertex and a triangle may have the same as two edges.
+  using Key = std::array<int, 5>;
+  static Key key_of(const ContactPair& pair);
+  std::vector<Key> known_;      // the pairs that are remembered
+  std::vector<Memory> memory_;  // theirs, and then by half-space and vertex
+  std::vector<double> last_;    // [N s] normal impulses of the step before, where memory_ has this one's
+  Points at_first_;             // velocities that a solution starts from
   std::vector<Active> active_;
   std::vector<int> driven_;  // of the active, those that something touches which no contact moves
   Points solid_velocity_;    // [m/s] of half-spaces, and of what turns about its one point or segment

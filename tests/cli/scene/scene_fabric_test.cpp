@@ -89,7 +89,9 @@ TEST_F(SceneFabric, LimitsWhatARunStretches) {
   for (const bool limited : {false, true}) {
     const cli::Scene scene = read(weak + (limited ? ", strain_limit: 0.1" : ""));
     const cli::Simulation simulation(scene);
-    const auto solver = simulation.make_solver({.step = 1e-3});
+    cli::StepChoice choice;
+    choice.step = 1e-3;
+    const auto solver = simulation.make_solver(choice);
     double most = 0.0;
     while (solver->state().time < 1.0) {
       solver->advance();
