@@ -56,7 +56,7 @@ struct Request {
   CompareOptions compare;
   StudyOptions study;
   std::vector<std::string> overrides;
-  std::string frames;
+  std::string frames, caches;
   bool overwrite = false, resume = false;
   std::function<int()> command;
 };
@@ -75,6 +75,8 @@ void add_render(CLI::App& app, Request& r) {
       ->type_name("DIR");
   CLI::Option* frames =
       c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 1-250 or 7")->type_name("A-B");
+  c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
+      ->type_name("FORMATS");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
   c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")
       ->excludes(overwrite)
@@ -91,6 +93,7 @@ void add_render(CLI::App& app, Request& r) {
       ->type_name("STYLE");
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
+    if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
     if (!r.frames.empty()) r.render.frames = parse_range(r.frames);
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
     r.command = [&r] { return render_command(r.render); };

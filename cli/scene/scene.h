@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/scene/body_kind.h"
+#include "cli/scene/cache_format.h"
 #include "cli/yaml/yaml_overrides.h"
 #include "render/image/image.h"
 #include "render/image/settings.h"
@@ -107,6 +108,7 @@ struct Scene {
   std::optional<int> followed;                 // the body that the camera stays beside
   SolverSpec solver;
   render::Settings render;
+  std::vector<CacheFormat> caches;  // in the order in which they are written
   std::optional<StripSpec> strip;
   std::optional<SpectrumSpec> spectrum;
   std::string effective;  // the whole scene with every default written out, as YAML that reads back to this scene

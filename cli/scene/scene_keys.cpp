@@ -26,6 +26,7 @@ const Section scene{"the scene",
                      {"wind", {}, {"none"}},
                      {"solver"},
                      {"render"},
+                     {"caches", {}, all_words<CacheFormat>()},
                      {"strip", {}, {"none"}},
                      {"spectrum", {}, {"none"}}}};
 

@@ -103,6 +103,9 @@ struct RenderDraft {
 /// Names in `bodies` are what a camera can follow.
 RenderDraft read_render(MapReader& scene, double duration, const std::vector<std::string>& bodies);
 
+/// Which caches of its geometry a run writes.
+std::vector<CacheFormat> read_caches(MapReader& scene);
+
 std::optional<StripSpec> read_strip(MapReader& scene, double duration);
 
 /// Of a cloth among the bodies.

@@ -118,6 +118,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.render = render.settings;
   scene.followed = render.followed;
   if (render.ground) names.add(render.ground->name, render.ground_where, "body or collider");
+  scene.caches = read_caches(map);
   scene.strip = read_strip(map, scene.duration);
   scene.spectrum = read_spectrum(map, scene.duration, drafts);
   settle_contact(drafts, !colliders.empty() || render.ground);
