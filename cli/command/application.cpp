@@ -29,22 +29,12 @@ Override parse_override(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-long parse_frame(std::string_view text, const std::string& whole) {
-  long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 1)
-    throw CLI::ValidationError("--frames", fmt::format("'{}' is not a range like 1-250", whole));
-  return value;
-}
-
-// "7" or "1-250"
-FrameRange parse_range(const std::string& text) {
-  const std::size_t dash = text.find('-');
-  const std::string_view view = text;
-  const long first = parse_frame(view.substr(0, dash), text);
-  const long last = dash == std::string::npos ? first : parse_frame(view.substr(dash + 1), text);
-  if (last < first) throw CLI::ValidationError("--frames", fmt::format("'{}' ends before it begins", text));
-  return {first, last};
+// "1-250,300-:5"
+std::vector<FrameSpan> parse_frame_list(const std::string& text) {
+  const auto spans = parse_frames(text);
+  if (!spans)
+    throw CLI::ValidationError("--frames", fmt::format("'{}' is no list of frames like 1-250,300-:5 or 7", text));
+  return *spans;
 }
 
 /// What the arguments ask for: filled by CLI11, run afterwards.
@@ -68,19 +58,16 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
       ->allow_extra_args(false);
 }
 
-void add_render(CLI::App& app, Request& r) {
-  CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip, record and page");
+// What running a scene takes, drawn or not.
+void add_run_options(CLI::App& c, Request& r) {
   add_scene_options(c, r.render.scene, r);
   c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
       ->type_name("DIR");
-  CLI::Option* frames =
-      c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 1-250 or 7")->type_name("A-B");
   c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
       ->type_name("FORMATS");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
-  c.add_flag("--resume", r.resume, "Finish an earlier run of the same scene in the folder")
-      ->excludes(overwrite)
-      ->excludes(frames);
+  c.add_flag("--resume", r.resume, "Finish or extend an earlier run of the same scene in the folder")
+      ->excludes(overwrite);
   c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
@@ -94,10 +81,29 @@ void add_render(CLI::App& app, Request& r) {
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
-    if (!r.frames.empty()) r.render.frames = parse_range(r.frames);
+    if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
     r.command = [&r] { return render_command(r.render); };
   });
+}
+
+void add_render(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip, record and page");
+  add_run_options(c, r);
+  CLI::Option* resume = c.get_option("--resume");
+  c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 7, 1-250, 300-, every fifth 1-250:5, or a list")
+      ->type_name("LIST")
+      ->excludes(resume);
+  c.add_option("--from", r.render.from, "Draw the states that 'billow simulate' wrote to this folder")
+      ->type_name("DIR")
+      ->excludes(resume);
+}
+
+void add_simulate(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand(
+      "simulate", "Simulate a scene and keep its states, exact; 'render --from' draws any frames of them");
+  add_run_options(c, r);
+  c.parse_complete_callback([&r] { r.render.simulate_only = true; });
 }
 
 void add_scene_command(CLI::App& app, Request& r, const std::string& name, const std::string& help, bool with_json,
@@ -173,6 +179,7 @@ void add_commands(CLI::App& app, Request& r) {
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "Help of every command");
   add_render(app, r);
+  add_simulate(app, r);
   add_scene_command(app, r, "check", "Validate a scene without simulating it; print it with every default", false,
                     check_command);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);

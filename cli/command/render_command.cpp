@@ -10,7 +10,7 @@ int render_command(const RenderOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides, progress);
   // What is wrong with these is found before the step is certified, which takes seconds.
   range_of(options, scene);
-  check_output_folder(output_of(options), options.existing, scene.hash);
+  check_output_folder(output_of(options), existing_of(options), scene);
   progress.phase("springs");
   const Simulation simulation(scene);
   progress.phase("limit");

@@ -17,6 +17,22 @@
   const share_of = (time) => (run.end > run.begin ? (time - run.begin) / (run.end - run.begin) : 0);
   const file_of = (view, number) => `${view}/frame_${String(number).padStart(4, "0")}.png`;
 
+  // Where only some frames were drawn, the others are passed over.
+  const listed = run.listed;
+  const last = listed.length ? listed[listed.length - 1] : run.last;
+  function place_of(number) {
+    let low = 0, high = listed.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (listed[middle] <= number) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+  const drawn_before = (number) => (listed.length ? listed[place_of(number)] : clamp(number, run.first, run.last));
+  const drawn_after = (number, steps) =>
+    listed.length ? listed[clamp(place_of(number) + steps, 0, listed.length - 1)] : clamp(number + steps, run.first, run.last);
+
   // Frames around the shown one, by file. Those far away are let go.
   const loaded = new Map();
   function load(file) {
@@ -29,9 +45,8 @@
   }
   function load_around(number) {
     const near = new Set();
-    for (let k = 0; k <= neighbours; ++k)
-      for (const n of [number + k, number - k])
-        if (n >= run.first && n <= run.last) for (const view of run.views) near.add(file_of(view, n));
+    for (let k = -neighbours; k <= neighbours; ++k)
+      for (const view of run.views) near.add(file_of(view, drawn_after(number, k)));
     for (const file of [...loaded.keys()]) if (!near.has(file)) loaded.delete(file);
     near.forEach(load);
   }
@@ -71,7 +86,7 @@
   }
 
   function show(number) {
-    frame = clamp(Math.round(number), run.first, run.last);
+    frame = drawn_before(Math.round(number));
     const time = time_of(frame);
     pictures.forEach((picture, k) => {
       picture.src = file_of(run.views[k], frame);
@@ -98,7 +113,7 @@
     play.setAttribute("aria-label", "Play");
   }
   function start() {
-    if (fresh || frame === run.last) show(run.first);
+    if (fresh || frame === last) show(run.first);
     fresh = false;
     playing = true;
     play.setAttribute("aria-pressed", "true");
@@ -111,15 +126,17 @@
     const now = performance.now();
     const due = Math.floor(((now - shown_at) * run.fps) / 1000);
     if (due > 0) {
-      const next = Math.min(frame + due, run.last);
-      if (ready(next)) {
+      const next = drawn_before(frame + due);
+      if (next === frame && frame !== last) {
+        // the next one that was drawn is not due yet
+      } else if (ready(next)) {
+        shown_at += (1000 * (next - frame)) / run.fps;
         show(next);
-        shown_at += (1000 * due) / run.fps;
       } else {
         shown_at = now;
       }
     }
-    if (frame === run.last) pause();
+    if (frame === last) pause();
     else setTimeout(advance, shown_at + 1000 / run.fps - performance.now());
   }
 
@@ -128,7 +145,7 @@
   document.addEventListener("keydown", (event) => {
     if (event.altKey || event.ctrlKey || event.metaKey || event.target.closest("button, summary, a, pre")) return;
     const steps = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    if (steps) seek(frame + steps * (event.shiftKey ? 10 : 1));
+    if (steps) seek(drawn_after(frame, steps * (event.shiftKey ? 10 : 1)));
     else if (event.key === " ") playing ? pause() : start();
     else return;
     event.preventDefault();

@@ -98,14 +98,16 @@ long resident_memory() {
 /// One run of make_film.
 class Film {
  public:
-  Film(const Run& run, const render::RunBounds& bounds, const FrameRange& range, const OutputFolder& folder,
-       int threads, Progress& progress)
+  Film(const Run& run, StateSource& states, const render::RunBounds& bounds, const FilmPlan& plan,
+       const OutputFolder& folder, int threads, Progress& progress)
       : run_(run),
+        states_(states),
         bounds_(bounds),
+        plan_(plan),
         folder_(folder),
         threads_(threads),
         progress_(progress),
-        setting_{run, folder, range, run.scene.render.velocity_range.value_or(bounds.velocity_scale)},
+        setting_{run, folder, plan.recorded, run.scene.render.velocity_range.value_or(bounds.velocity_scale)},
         images_(static_cast<std::size_t>(2 * threads)),
         error_([this] { snapshots_.abort(), images_.abort(); }),
         report_{.frames = FrameLog(folder.file(RunFile::record))} {}
@@ -132,35 +134,29 @@ class Film {
 
  private:
   void simulate() {
-    FrameRecorder frames(setting_, snapshots_);
-    std::vector<std::unique_ptr<Recorder>> recorders = make_recorders(setting_, report_);
-    Moments moments(all_schedules(run_.scene, setting_.range.last));
-    const auto watched = run_.simulation.make_run(run_.choice, [&] { return moments.take(); });
+    FrameRecorder frames(setting_, plan_.drawn, snapshots_);
+    std::vector<std::unique_ptr<Recorder>> recorders = make_recorders(setting_, plan_.only_frames, report_);
     try {
-      record(*watched, frames, recorders);
+      record(frames, recorders);
     } catch (const DivergenceError& error) {
       report_.divergence = error.what();
     }
-    const sim::Solver& solver = watched->solver();
-    report_.steps = watched->steps();
-    report_.simulated_time = watched->time();
-    report_.solves = solver.solve_counts();
-    report_.incidents = watched->incidents();
-    report_.largest_strain = solver.largest_strain();
+    report_.facts = states_.facts();
+    if (!report_.interrupted_by) report_.simulated_time = report_.facts.time;
     frames.finish();
     for (const auto& recorder : recorders) recorder->finish();
   }
 
   // From one moment that some recorder wants to the next.
-  void record(sim::WatchedRun& watched, FrameRecorder& frames,
-              const std::vector<std::unique_ptr<Recorder>>& recorders) {
+  void record(FrameRecorder& frames, const std::vector<std::unique_ptr<Recorder>>& recorders) {
     std::vector<Recorder*> all = {&frames};
     for (const auto& recorder : recorders) all.push_back(recorder.get());
     do {
       if ((report_.interrupted_by = interrupted_by()) != 0) return;
       const Stopwatch watch(report_.simulate);
-      const auto sample = watched.next();
+      const auto sample = states_.next();
       if (!sample) return;
+      report_.simulated_time = sample->state.time;
       for (Recorder* recorder : all)
         if (recorder->wants() <= sample->time + Schedule::together) recorder->add(sample->time, sample->state);
     } while (frames.hand_over());
@@ -169,28 +165,30 @@ class Film {
   bool wanted(render::View view, long frame) const { return !folder_.keeps(view, frame); }
 
   void draw() {
-    render::MeshRenderer renderer(run_.scene.render, run_.drawn.bodies(), bounds_, threads_);
-    report_.gl = renderer.description();
-    report_.velocity_range = renderer.velocity_range();
-    progress_.begin("render", setting_.range.last - setting_.range.first + 1);
+    std::optional<render::MeshRenderer> renderer;  // no GL where nothing is drawn
+    if (!plan_.views.empty()) renderer.emplace(run_.scene.render, run_.drawn.bodies(), bounds_, threads_);
+    if (renderer) report_.gl = renderer->description();
+    report_.velocity_range = setting_.velocity_range;
+    progress_.begin(renderer ? "render" : "simulate", plan_.drawn.count());
     while (const auto snapshot = snapshots_.pop()) {
-      for (const render::View view : run_.scene.render.views) {
-        if (!wanted(view, snapshot->frame)) {
-          ++report_.images_kept;
-          continue;
-        }
-        FinishedImage finished{folder_.frame(view, snapshot->frame), {}};
-        {
-          const Stopwatch watch(report_.draw);
-          finished.image = renderer.draw(view, snapshot->bodies);
-        }
-        if (!images_.push(std::move(finished))) return;
-      }
+      for (const render::View view : plan_.views)
+        if (!draw(*renderer, view, *snapshot)) return;
       progress_.update(++report_.frames_drawn, snapshot->time);
       if (report_.frames_drawn == settled_frames) report_.memory.settled = resident_memory();
     }
     progress_.end();
     report_.memory.end = resident_memory();
+  }
+
+  // False when nobody encodes any more.
+  bool draw(render::MeshRenderer& renderer, render::View view, const Snapshot& snapshot) {
+    if (!wanted(view, snapshot.frame)) return ++report_.images_kept, true;
+    FinishedImage finished{folder_.frame(view, snapshot.frame), {}};
+    {
+      const Stopwatch watch(report_.draw);
+      finished.image = renderer.draw(view, snapshot.bodies);
+    }
+    return images_.push(std::move(finished));
   }
 
   void encode(StageCost& cost, long& written) {
@@ -202,7 +200,9 @@ class Film {
   }
 
   const Run& run_;
+  StateSource& states_;
   const render::RunBounds& bounds_;
+  const FilmPlan& plan_;
   const OutputFolder& folder_;
   int threads_;
   Progress& progress_;
@@ -215,29 +215,48 @@ class Film {
 
 }  // namespace
 
-Survey survey(const Run& run, Progress& progress) {
+namespace {
+
+/// Says what went wrong and was mended as soon as it is known.
+class IncidentTeller {
+ public:
+  IncidentTeller(double step, Progress& progress) : step_(step), progress_(progress) {}
+  void tell(const std::vector<sim::Incident>& incidents) {
+    for (; told_ < incidents.size(); ++told_) progress_.say(incident_text(incidents[told_], step_));
+  }
+
+ private:
+  double step_;
+  Progress& progress_;
+  std::size_t told_ = 0;
+};
+
+}  // namespace
+
+Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progress& progress) {
   Survey result;
   result.bounds.velocity_scale = 0.0;
   const Stopwatch watch(result.cost, CLOCK_PROCESS_CPUTIME_ID);
   const long frames = frame_count(run.scene);
-  Moments moments(all_schedules(run.scene, frames));
-  const auto watched = run.simulation.make_run(run.choice, [&] { return moments.take(); });
-  std::size_t incidents = 0;
+  IncidentTeller incidents(run.choice.step, progress);
+  std::optional<std::string> divergence;
   progress.begin("survey", frames);
   try {
     Schedule shown = frame_schedule(run.scene, frames);
     while (interrupted_by() == 0) {
-      const auto sample = watched->next();
-      for (; incidents < watched->incidents().size(); ++incidents)
-        progress.say(incident_text(watched->incidents()[incidents], run.choice.step));
+      const auto sample = states.next();
+      incidents.tell(states.facts().incidents);
       if (!sample) break;
+      if (spool) spool->add(*sample);
+      if (!shown.take(sample->time)) continue;
       take_into(result.bounds, run, sample->state);
-      if (shown.take(sample->time)) progress.update(shown.taken(), sample->time);
+      progress.update(shown.taken(), sample->time);
     }
-  } catch (const DivergenceError&) {
-    // The film meets the same step and reports it, after writing the frames before it.
+  } catch (const DivergenceError& error) {
+    divergence = error.what();
   }
   progress.end();
+  if (spool) spool->close(states.facts(), divergence);
   if (result.bounds.velocity_scale == 0.0) result.bounds.velocity_scale = 1.0;
   return result;
 }
@@ -247,9 +266,9 @@ double best_wall_seconds(const Survey& survey, const FilmReport& report, int cor
   return std::max(packed, std::min(survey.cost.wall, survey.cost.cpu) + std::max(report.simulate.cpu, report.draw.cpu));
 }
 
-FilmReport make_film(const Run& run, const render::RunBounds& bounds, const FrameRange& range,
+FilmReport make_film(const Run& run, StateSource& states, const render::RunBounds& bounds, const FilmPlan& plan,
                      const OutputFolder& folder, int threads, Progress& progress) {
-  return Film(run, bounds, range, folder, threads, progress).run();
+  return Film(run, states, bounds, plan, folder, threads, progress).run();
 }
 
 }  // namespace billow::cli

@@ -11,6 +11,8 @@
 #include "cli/run/progress.h"
 #include "cli/run/run.h"
 #include "cli/run/run_series.h"
+#include "cli/run/spooled_states.h"
+#include "cli/run/state_source.h"
 #include "sim/step/schemes.h"
 
 namespace billow::cli {
@@ -35,14 +37,22 @@ struct Survey {
   StageCost cost;
 };
 
+/// An array that was written for NumPy, and what its axes are.
+struct WrittenArray {
+  std::string file, type;  // relative to the run's folder; "<f4"
+  std::vector<long> shape;
+  std::vector<std::string> axes;
+  std::string unit;
+};
+
 struct FilmReport {
   FrameLog frames;
   RunSeries series = {};  // of the same frames
   long frames_drawn = 0, images_written = 0, images_kept = 0;
   int strip_columns = 0;
-  long steps = 0;
-  double simulated_time = 0.0;  // [s]
-  sim::SolveCounts solves = {};
+  std::vector<WrittenArray> arrays = {};
+  RunFacts facts = {};
+  double simulated_time = 0.0;  // [s] until the end, or where it was interrupted
   double velocity_range = 0.0;  // [m/s]
   std::string gl = {};
   ResidentMemory memory = {};
@@ -50,25 +60,32 @@ struct FilmReport {
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
   int interrupted_by = 0;  // the signal that ended the run early, or 0
   std::optional<std::string> divergence = {};  // the message, when the run diverged
-  std::vector<sim::Incident> incidents = {};   // what went wrong and was mended
-  double largest_strain = 0.0;                 // [rest lengths] of any spring
   std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 
-/// Runs the whole scene once without drawing, to find the box it moves in and the scale of its velocities (twice the
-/// largest root mean square of a component, so that one whipping corner does not grey out all else): the
-/// camera, the shadow and the velocity colours are then the same for every frame, whichever frames are drawn.
-/// A divergence ends the survey early without an error; the film then meets it too.
-Survey survey(const Run& run, Progress& progress);
+/// Goes through all states of `states` without drawing, to find the box that the frames take up and the scale of their
+/// velocities (twice the largest root mean square of a component, so that one whipping corner does not grey out all
+/// else): the camera, the shadow and the velocity colours are then the same for every frame, whichever frames are
+/// drawn. `spool`, where there is one, gets all states. A divergence ends the survey early without an error; the film
+/// then meets it too.
+Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progress& progress);
 
 /// The least time [s] in which `cores` could have done the run's work: all of it, perfectly packed, or the chain that
 /// no packing can shorten: the survey, then the longer of the two stages that take one frame after another.
 double best_wall_seconds(const Survey& survey, const FilmReport& report, int cores);
 
-/// Draws the frames of `range` into `folder`, and what else the scene asks for. The simulation, the drawing and
-/// `threads` encoders overlap; queues between them are bounded. A divergence or a signal ends the film after the frames
-/// before it are written; any other error is thrown.
-FilmReport make_film(const Run& run, const render::RunBounds& bounds, const FrameRange& range,
+/// What a film is made of.
+struct FilmPlan {
+  FrameRange drawn;                 // frames that are drawn
+  FrameRange recorded;              // frames that the other outputs are of
+  std::vector<render::View> views;  // of each; may be none
+  bool only_frames = false;         // nothing that takes other moments than the frames'
+};
+
+/// Draws frames into `folder`, and writes what else the scene asks for. States, drawing and `threads` encoders overlap;
+/// queues between them are bounded. A divergence or a signal ends the film after the frames before it are written; any
+/// other error is thrown.
+FilmReport make_film(const Run& run, StateSource& states, const render::RunBounds& bounds, const FilmPlan& plan,
                      const OutputFolder& folder, int threads, Progress& progress);
 
 }  // namespace billow::cli

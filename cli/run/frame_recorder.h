@@ -21,14 +21,14 @@ struct Snapshot {
 /// Records what is to be drawn and hands it over.
 class FrameRecorder : public Recorder {
  public:
-  FrameRecorder(const RecorderSetting& setting, Channel<Snapshot>& drawing)
+  FrameRecorder(const RecorderSetting& setting, const FrameRange& range, Channel<Snapshot>& drawing)
       : drawn_(setting.run.drawn),
-        range_(setting.range),
-        frames_(frame_schedule(setting.run.scene, setting.range.last)),
+        range_(range),
+        frames_(frame_schedule(setting.run.scene, range.last)),
         drawing_(drawing) {}
   double wants() const override { return frames_.next(); }
   void add(double time, const sim::State& state) override {
-    if (frames_.take(time) && frames_.taken() >= range_.first) next_ = {frames_.taken(), time, drawn_.surfaces(state)};
+    if (frames_.take(time) && range_.contains(frames_.taken())) next_ = {frames_.taken(), time, drawn_.surfaces(state)};
   }
   void finish() override { drawing_.close(); }
 

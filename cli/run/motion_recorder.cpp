@@ -1,6 +1,10 @@
 // State -> energy, momenta and stretch.
 #include "cli/run/motion_recorder.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/atomic_file.h"
 #include "cli/run/film.h"
 #include "sim/body/momenta.h"
 #include "sim/body/stretch.h"
@@ -24,15 +28,31 @@ FrameRecord record_of(const Simulation& simulation, long frame, const sim::State
 
 MotionRecorder::MotionRecorder(const RecorderSetting& setting, FilmReport& report)
     : simulation_(setting.run.simulation),
+      folder_(setting.folder),
       range_(setting.range),
       frames_(frame_schedule(setting.run.scene, setting.range.last)),
       report_(report) {}
 
 void MotionRecorder::add(double time, const sim::State& state) {
-  if (!frames_.take(time) || frames_.taken() < range_.first) return;
+  if (!frames_.take(time) || !range_.contains(frames_.taken())) return;
   const FrameRecord record = record_of(simulation_, frames_.taken(), state);
   report_.frames.add(record);
   report_.series.add(record);
+}
+
+// A row a frame; numbers read back to the bit.
+void MotionRecorder::finish() {
+  AtomicFile output(folder_.file(RunFile::frame_table));
+  const auto append = [&](const std::string& line) {
+    if (!output.write(line.data(), line.size())) output.fail();
+  };
+  append(
+      "frame,time_s,kinetic_energy_J,potential_energy_J,linear_momentum_x_kg_m_s,linear_momentum_y_kg_m_s,"
+      "linear_momentum_z_kg_m_s,angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s,"
+      "largest_stretch,mean_stretch\n");
+  for (const FrameRecord& record : report_.frames)
+    append(fmt::format("{},{},{}\n", record.frame, record.time, fmt::join(measures_of(record), ",")));
+  output.commit();
 }
 
 }  // namespace billow::cli

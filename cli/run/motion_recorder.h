@@ -6,16 +6,18 @@
 
 namespace billow::cli {
 
-/// Into the report's frame log and its curves.
+/// Into the report's frame log and its curves, and at the end into a table.
 class MotionRecorder : public Recorder {
  public:
   MotionRecorder(const RecorderSetting& setting, FilmReport& report);
   double wants() const override { return frames_.next(); }
   void add(double time, const sim::State& state) override;
-  void finish() override {}
+  /// Writes the log as a table, frames.csv.
+  void finish() override;
 
  private:
   const Simulation& simulation_;
+  const OutputFolder& folder_;
   FrameRange range_;
   Schedule frames_;
   FilmReport& report_;

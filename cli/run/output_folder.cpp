@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.h"
+#include "cli/run/state_store.h"
 
 namespace billow::cli {
 
@@ -29,7 +31,7 @@ bool is_frame(const fs::path& file) {
          stem.find_first_not_of("0123456789", 6) == std::string::npos;
 }
 
-void remove_earlier_run(const fs::path& folder) {
+void remove_all_frames(const fs::path& folder) {
   std::error_code error;
   for (const render::ViewRow& view : render::views()) {
     std::vector<fs::path> frames;
@@ -39,24 +41,28 @@ void remove_earlier_run(const fs::path& folder) {
     if (fs::is_directory(folder / view.folder, error))
       fs::remove(folder / view.folder, error);  // only if it is empty now
   }
+}
+
+void remove_earlier_run(const fs::path& folder) {
+  std::error_code error;
+  remove_all_frames(folder);
+  remove_states(folder / StateStore::folder_name);
   for (const std::string_view file : all_words<RunFile>())
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
 }
 
-// The scene hash that a run's record names; empty where there is no such record.
-std::string hash_in(const fs::path& record) {
-  std::error_code error;
-  if (!fs::is_regular_file(record, error)) return "";
-  std::ifstream file(record);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  const nlohmann::json::json_pointer place("/scene/hash");
-  return json.is_object() && json.contains(place) && json[place].is_string() ? json[place].get<std::string>() : "";
+// Of the same scene, or of one that only ends at another time.
+bool is_same_run(const fs::path& folder, const Scene& scene) {
+  const nlohmann::json record = earlier_record(folder);
+  const nlohmann::json::json_pointer whole("/scene/hash"), timeless("/scene/timeless_hash");
+  return record.is_object() &&
+         (record.value(whole, "") == scene.hash || record.value(timeless, "") == scene.timeless_hash);
 }
 
-void check_same_run(const fs::path& record, const std::string& scene_hash) {
-  if (hash_in(record) == scene_hash) return;
+void check_same_run(const fs::path& folder, const Scene& scene) {
+  if (is_same_run(folder, scene)) return;
   throw OutputError(fmt::format("{} is not of this scene, so its run cannot be resumed; use --overwrite to replace it",
-                                record.string()));
+                                (folder / "run.json").string()));
 }
 
 }  // namespace
@@ -64,9 +70,13 @@ void check_same_run(const fs::path& record, const std::string& scene_hash) {
 // Their names.
 Words<RunFile> words(RunFile) {
   static constexpr Word<RunFile> list[] = {{"velocity_strip.png", RunFile::strip},
+                                           {"velocity_strip.npy", RunFile::strip_array},
                                            {"velocity_image.png", RunFile::velocity_image},
+                                           {"velocity_image.npy", RunFile::velocity_image_array},
                                            {"velocity_spectrum.png", RunFile::spectrum},
+                                           {"velocity_spectrum.npy", RunFile::spectrum_array},
                                            {"spectrum.csv", RunFile::spectrum_table},
+                                           {"frames.csv", RunFile::frame_table},
                                            {"run.json", RunFile::record},
                                            {"index.html", RunFile::page}};
   return list;
@@ -78,25 +88,37 @@ void make_folder(const fs::path& folder) {
   if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
 }
 
-void check_output_folder(const fs::path& folder, Existing existing, const std::string& scene_hash) {
+nlohmann::json earlier_record(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "run.json", error)) return {};
+  std::ifstream file(folder / "run.json");
+  nlohmann::json record = nlohmann::json::parse(file, nullptr, false);
+  return record.is_object() ? record : nlohmann::json();
+}
+
+void check_output_folder(const fs::path& folder, Existing existing, const Scene& scene) {
   const bool empty = is_empty_or_missing(folder);
   if (!empty && existing == Existing::refuse)
     throw OutputError(
         fmt::format("{} already holds files; use --overwrite to replace a run there, --resume to finish "
                     "it, or -o for another folder",
                     folder.string()));
-  if (!empty && existing == Existing::resume) check_same_run(folder / "run.json", scene_hash);
+  if (!empty && existing == Existing::resume) check_same_run(folder, scene);
 }
 
-OutputFolder::OutputFolder(fs::path folder, Existing existing, const std::string& scene_hash,
+OutputFolder::OutputFolder(fs::path folder, Existing existing, const Scene& scene,
                            const std::vector<render::View>& views)
-    : folder_(std::move(folder)), views_(views), existing_(existing) {
-  check_output_folder(folder_, existing, scene_hash);
+    : folder_(std::move(folder)), views_(views), existing_(existing), keeps_(existing == Existing::resume) {
+  check_output_folder(folder_, existing, scene);
   make_folder(folder_);
 }
 
 void OutputFolder::begin_run() {
   if (existing_ == Existing::overwrite) remove_earlier_run(folder_);
+  join_run();
+}
+
+void OutputFolder::join_run() {
   for (const render::View view : views_) make_folder(folder_ / render::folder(view));
 }
 
@@ -104,12 +126,26 @@ fs::path OutputFolder::frame(render::View view, long frame) const {
   return folder_ / render::folder(view) / fmt::format("frame_{:04}.png", frame);
 }
 
+fs::path OutputFolder::states() const { return folder_ / StateStore::folder_name; }
+
 fs::path OutputFolder::file(RunFile file) const { return folder_ / word_of(file); }
+
+void OutputFolder::remove_frames() const { remove_all_frames(folder_); }
+
+std::vector<long> OutputFolder::frames_drawn(long total) const {
+  std::error_code error;
+  std::vector<long> drawn;
+  for (long number = 1; number <= total; ++number)
+    if (std::all_of(views_.begin(), views_.end(),
+                    [&](render::View view) { return fs::is_regular_file(frame(view, number), error); }))
+      drawn.push_back(number);
+  return drawn;
+}
 
 bool OutputFolder::keeps(render::View view, long number) const {
   std::error_code error;
   const fs::path file = frame(view, number);
-  return existing_ == Existing::resume && fs::is_regular_file(file, error) && fs::file_size(file, error) > 0;
+  return keeps_ && fs::is_regular_file(file, error) && fs::file_size(file, error) > 0;
 }
 
 }  // namespace billow::cli

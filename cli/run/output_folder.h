@@ -6,7 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "base/words.h"
+#include "cli/scene/scene.h"
 #include "render/image/settings.h"
 
 namespace billow::cli {
@@ -17,28 +20,52 @@ enum class Existing { refuse, overwrite, resume };
 /// Makes the folder and those above it where they are missing. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run whose run.json
-/// names `scene_hash` and it is resume. Changes nothing.
-void check_output_folder(const std::filesystem::path& folder, Existing existing, const std::string& scene_hash);
+/// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run of this scene,
+/// however long, by its run.json and it is resume. Changes nothing.
+void check_output_folder(const std::filesystem::path& folder, Existing existing, const Scene& scene);
+
+/// run.json of `folder`, as far as it can be read; null where it cannot.
+nlohmann::json earlier_record(const std::filesystem::path& folder);
 
 /// The files of a run besides its frames.
-enum class RunFile { strip, velocity_image, spectrum, spectrum_table, record, page };
+enum class RunFile {
+  strip,
+  strip_array,
+  velocity_image,
+  velocity_image_array,
+  spectrum,
+  spectrum_array,
+  spectrum_table,
+  frame_table,
+  record,
+  page
+};
 Words<RunFile> words(RunFile);
 
 /// DIR of `billow render`: a folder of frames for each view, and the run's files.
 class OutputFolder {
  public:
   /// Makes the folder. Throws OutputError as check_output_folder, or when it cannot be made.
-  OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
+  OutputFolder(std::filesystem::path folder, Existing existing, const Scene& scene,
                const std::vector<render::View>& views);
 
-  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, strip, record and page that
-  /// an earlier run wrote there, and nothing else.
+  /// Call it when the first frame is about to be drawn: `overwrite` now removes what an earlier run wrote there, and
+  /// nothing else.
   void begin_run();
+  /// The same where other processes may be drawing other frames of the run: removes nothing.
+  void join_run();
+  /// Draw everything again, also what is there.
+  void keep_nothing() { keeps_ = false; }
+  /// Removes the frames of all views.
+  void remove_frames() const;
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path frame(render::View view, long frame) const;
   std::filesystem::path file(RunFile file) const;
+  /// Where states are kept (state_store.h).
+  std::filesystem::path states() const;
+  /// The frames of 1 to `total` that are there in every view, ascending.
+  std::vector<long> frames_drawn(long total) const;
   /// True when resuming and the frame is there already.
   bool keeps(render::View view, long frame) const;
 
@@ -46,6 +73,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::vector<render::View> views_;
   Existing existing_;
+  bool keeps_;
 };
 
 }  // namespace billow::cli

@@ -8,14 +8,16 @@
 
 namespace billow::cli {
 
-std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& setting, FilmReport& report) {
+std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& setting, bool only_frames,
+                                                      FilmReport& report) {
   const Scene& scene = setting.run.scene;
   std::vector<std::unique_ptr<Recorder>> recorders;
   recorders.push_back(std::make_unique<MotionRecorder>(setting, report));
   if (const sim::Filter* filter = setting.run.simulation.filter_operator();
       filter && filter->options().target == sim::FilterTarget::force)
     recorders.push_back(std::make_unique<ResponseRecorder>(setting, report));
-  if (scene.spectrum) recorders.push_back(std::make_unique<SpectrumRecorder>(setting));
+  if (only_frames) return recorders;
+  if (scene.spectrum) recorders.push_back(std::make_unique<SpectrumRecorder>(setting, report));
   if (scene.strip) recorders.push_back(std::make_unique<StripRecorder>(setting, report));
   return recorders;
 }

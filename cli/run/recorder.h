@@ -29,12 +29,13 @@ class Recorder {
 struct RecorderSetting {
   const Run& run;
   const OutputFolder& folder;
-  FrameRange range;       // of the frames that are drawn
+  FrameRange range;       // of the frames that are recorded
   double velocity_range;  // [m/s] v_max of all colours
 };
 
-/// The recorders of all that the scene asks for besides its frames; what they come to goes into `report`, which must
-/// outlive them, as must what `setting` refers to.
-std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& setting, FilmReport& report);
+/// The recorders of all that the scene asks for besides its pictures, or of that alone which frames say
+/// (`only_frames`). What they come to goes into `report`, which must outlive them, as must what `setting` refers to.
+std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& setting, bool only_frames,
+                                                      FilmReport& report);
 
 }  // namespace billow::cli

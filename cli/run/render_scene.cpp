@@ -5,17 +5,22 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/folder_lock.h"
 #include "cli/run/film.h"
 #include "cli/run/given_bounds.h"
 #include "cli/run/incident_text.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/run_facts.h"
 #include "cli/run/run_record.h"
+#include "cli/run/run_warnings.h"
+#include "cli/run/simulated_states.h"
+#include "cli/run/spooled_states.h"
 #include "cli/scene/step_warnings.h"
 
 namespace billow::cli {
@@ -35,36 +40,16 @@ void say(Progress& progress, const Warnings& warnings) {
   for (const std::string& warning : warnings) progress.say("warning: " + warning);
 }
 
-// What the conjugate gradient could not do, and what to do instead. Tightening alone costs little and mends all.
-void add_warnings_of_solves(const sim::SolveCounts& solves, Warnings& warnings) {
-  if (solves.by_cholesky > 0)
-    warnings.push_back(
-        fmt::format("the conjugate gradient gave up on {} of {} linear solves, which sparse Cholesky took over; choose "
-                    "'solver.linear_solver: cholesky', raise solver.max_iterations or take a smaller step",
-                    solves.by_cholesky, solves.solves));
-  if (solves.failures > 0)
-    warnings.push_back(fmt::format(
-        "{} of {} linear solves failed, by Cholesky too, so the motion is wrong from the first of them on; take a "
-        "smaller step or softer springs",
-        solves.failures, solves.solves));
+// What a run's record says of files that the frames of its states have no part in.
+nlohmann::ordered_json made_elsewhere(const nlohmann::json& record) {
+  nlohmann::ordered_json kept = nlohmann::ordered_json::object();
+  for (const char* key : {"strip_columns", "caches", "arrays"})
+    if (record.contains(key)) kept[key] = record[key];
+  return kept;
 }
 
-// Below it, motion that one sees is slowed by as much again as its response's root.
-constexpr double least_response = 0.9;
-
-Warnings warnings_after(const Run& run, const FilmReport& report) {
-  Warnings warnings;
-  for (const sim::Incident& incident : report.incidents) warnings.push_back(incident_text(incident, run.choice.step));
-  if (report.largest_strain > sim::suspect_strain)
-    warnings.push_back(fmt::format(
-        "a spring was stretched by {:.3g} times its rest length, which its stiffness allowed", report.largest_strain));
-  if (report.filter_response && *report.filter_response < least_response)
-    warnings.push_back(
-        fmt::format("the filter passes {:.0f} % of the motion's own accelerations, so that what one sees is slowed; "
-                    "take a smaller ratio, a larger lambda or fewer passes",
-                    100.0 * *report.filter_response));
-  add_warnings_of_solves(report.solves, warnings);
-  return warnings;
+std::vector<render::View> views_of(const RenderOptions& options, const Scene& scene) {
+  return options.simulate_only ? std::vector<render::View>() : scene.render.views;
 }
 
 void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder) {
@@ -75,26 +60,146 @@ void say_end(Progress& progress, const FilmReport& report, const OutputFolder& f
                            strip, folder.path().string(), time_taken(progress, report)));
 }
 
-// What the pictures need to know beforehand: from the scene where it says it all, else from a survey.
-Survey look_ahead(const Run& run, Progress& progress) {
-  if (const auto bounds = given_bounds(run)) return {*bounds, {}};
-  progress.phase("survey");
-  return survey(run, progress);
+// Several processes may draw frames of the same states into the same folder.
+bool draws_stored(const RenderOptions& options) { return !options.from.empty(); }
+
+bool keeps_states(const RenderOptions& options, const OutputFolder& folder) {
+  std::error_code error;
+  return options.simulate_only ||
+         (options.existing == Existing::resume && std::filesystem::is_directory(folder.states(), error));
 }
+
+// Whether frames that were drawn within the recorded bounds, null for unknown ones, can stay. A run that ended at
+// another time may have had other bounds.
+bool was_drawn_alike(const nlohmann::json& recorded, const render::RunBounds& bounds) {
+  return recorded.is_null() || recorded == nlohmann::json(bounds_record(bounds));
+}
+
+/// One run of render_scene.
+class SceneRun {
+ public:
+  SceneRun(const Run& run, const RenderOptions& options, OutputFolder& folder, int threads, Progress& progress)
+      : run_(run), options_(options), folder_(folder), threads_(threads), progress_(progress) {}
+
+  int run() {
+    say_start(progress_, run_);
+    warnings_ = step_warnings(run_.simulation.structure(), run_.choice);
+    say(progress_, warnings_);
+    const bool keeps = !draws_stored(options_) && keeps_states(options_, folder_);
+    const nlohmann::json before = earlier_record(folder_.path());
+    const nlohmann::json bounds_before = before.is_null() ? nlohmann::json() : before.value("bounds", nlohmann::json());
+    if (keeps) begin(), write_begun_record(bounds_before);
+    look_ahead();
+    if (interrupted_by() != 0) return 128 + interrupted_by();
+    progress_.phase(options_.simulate_only ? "simulate" : "render");
+    const bool alike = was_drawn_alike(bounds_before, survey_.bounds);
+    if (!alike) folder_.remove_frames();
+    if (!keeps) begin();
+    if (!draws_stored(options_) || before.is_null() || !alike) write_begun_record(bounds_record(survey_.bounds));
+    const FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
+    finish(report);
+    if (report.interrupted_by) return 128 + report.interrupted_by;
+    if (report.divergence) throw DivergenceError(*report.divergence);
+    return 0;
+  }
+
+ private:
+  void write_begun_record(const nlohmann::ordered_json& bounds) const {
+    write_file_atomically(folder_.file(RunFile::record), begun_record(run_, bounds));
+  }
+
+  void begin() {
+    if (draws_stored(options_))
+      folder_.join_run();
+    else
+      folder_.begin_run();
+    if (keeps_states(options_, folder_)) make_folder(folder_.states());
+  }
+
+  StateStore store(const std::filesystem::path& folder) const {
+    return {folder, run_.scene, run_.choice, run_.simulation.structure().particles()};
+  }
+
+  // `go_on`: from what was kept of this very run as well.
+  std::unique_ptr<StateSource> open_states(long last_frame, bool go_on) const {
+    if (draws_stored(options_))
+      return std::make_unique<StoredStates>(run_, store(options_.from / StateStore::folder_name));
+    if (!keeps_states(options_, folder_)) return std::make_unique<SimulatedStates>(run_, last_frame);
+    return std::make_unique<KeptStates>(run_, last_frame, store(folder_.states()),
+                                        go_on || options_.existing == Existing::resume);
+  }
+
+  // What the pictures need to know beforehand: from the scene where it says it all, else from a survey, whose states
+  // the film then has.
+  void look_ahead() {
+    const long last_frame = range_of(options_, run_.scene).last;
+    if (const auto bounds = given_bounds(run_)) {
+      survey_ = {*bounds, {}};
+      states_ = open_states(last_frame, false);
+      return;
+    }
+    progress_.phase("survey");
+    const auto states = open_states(frame_count(run_.scene), false);
+    auto spool = std::make_unique<SpooledStates>(folder_.file(RunFile::record));
+    survey_ = survey(run_, *states, draws_stored(options_) ? nullptr : spool.get(), progress_);
+    if (draws_stored(options_) || !spool->whole())
+      states_ = open_states(last_frame, true);
+    else
+      states_ = std::move(spool);
+  }
+
+  FilmPlan plan() const {
+    const FrameRange drawn = range_of(options_, run_.scene);
+    const FrameRange all{1, frame_count(run_.scene)};
+    return {drawn, draws_stored(options_) ? all : drawn, views_of(options_, run_.scene), draws_stored(options_)};
+  }
+
+  void finish(const FilmReport& report) {
+    progress_.phase("writing");
+    const Warnings late = run_warnings(run_, report);
+    say(progress_, late);
+    warnings_.insert(warnings_.end(), late.begin(), late.end());
+    const FolderLock lock(folder_.path());
+    RunPage page = describe_run(run_, report, warnings_, progress_);
+    nlohmann::ordered_json inherited = nlohmann::ordered_json::object();
+    if (draws_stored(options_)) {
+      page.listed = folder_.frames_drawn(frame_count(run_.scene));
+      inherited = made_elsewhere(earlier_record(folder_.path()));
+      page.strip_columns = inherited.value("strip_columns", 0);
+    } else {
+      page.listed = range_of(options_, run_.scene).listed;
+    }
+    write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
+    // Last, so that its times leave nothing out.
+    write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
+    say_end(progress_, report, folder_);
+  }
+
+  const Run& run_;
+  const RenderOptions& options_;
+  OutputFolder& folder_;
+  int threads_;
+  Progress& progress_;
+  Warnings warnings_;
+  Survey survey_;
+  std::unique_ptr<StateSource> states_;
+};
 
 }  // namespace
 
 std::filesystem::path output_of(const RenderOptions& options) {
-  return options.output.empty() ? std::filesystem::path("out") / options.scene.stem() : options.output;
+  if (!options.output.empty()) return options.output;
+  return draws_stored(options) ? options.from : std::filesystem::path("out") / options.scene.stem();
+}
+
+// Where frames of stored states are drawn, others may be there already.
+Existing existing_of(const RenderOptions& options) {
+  return draws_stored(options) ? Existing::resume : options.existing;
 }
 
 FrameRange range_of(const RenderOptions& options, const Scene& scene) {
   const long frames = frame_count(scene);
-  if (!options.frames) return {1, frames};
-  if (options.frames->last > frames)
-    throw InputError(fmt::format("--frames {}-{}: the scene has frames 1 to {}", options.frames->first,
-                                 options.frames->last, frames));
-  return *options.frames;
+  return options.frames.empty() ? FrameRange{1, frames} : frames_in(options.frames, frames);
 }
 
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
@@ -103,31 +208,12 @@ int render_scene(const Scene& scene, const Simulation& simulation, const StepCho
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
   catch_interrupts();
-  OutputFolder folder(output_of(options), options.existing, scene.hash, scene.render.views);
+  OutputFolder folder(output_of(options), existing_of(options), scene, views_of(options, scene));
+  if (draws_stored(options) && options.existing == Existing::overwrite) folder.keep_nothing();
   progress.phase("surfaces");
   const DrawnScene drawn(scene, simulation);
   const Run run{scene, simulation, drawn, choice, options.command};
-  say_start(progress, run);
-  Warnings warnings = step_warnings(simulation.structure(), choice);
-  say(progress, warnings);
-
-  const Survey found = look_ahead(run, progress);
-  if (interrupted_by() != 0) return 128 + interrupted_by();
-  progress.phase("render");
-  folder.begin_run();
-  write_file_atomically(folder.file(RunFile::record), begun_record(scene, options.command));
-  const FilmReport report = make_film(run, found.bounds, range_of(options, scene), folder, threads, progress);
-  progress.phase("writing");
-  const Warnings late = warnings_after(run, report);
-  say(progress, late);
-  warnings.insert(warnings.end(), late.begin(), late.end());
-  write_file_atomically(folder.file(RunFile::page), run_page_html(describe_run(run, report, warnings, progress)));
-  // Last, so that its times leave nothing out.
-  write_finished_record(folder.file(RunFile::record), run, found, report, progress);
-  say_end(progress, report, folder);
-  if (report.interrupted_by) return 128 + report.interrupted_by;
-  if (report.divergence) throw DivergenceError(*report.divergence);
-  return 0;
+  return SceneRun(run, options, folder, threads, progress).run();
 }
 
 }  // namespace billow::cli

@@ -15,8 +15,10 @@ namespace billow::cli {
 struct RenderOptions {
   std::filesystem::path scene;
   std::vector<Override> overrides;
-  std::filesystem::path output;      // empty: out/ and the scene's name
-  std::optional<FrameRange> frames;  // none: all
+  std::filesystem::path output;   // empty: out/ and the scene's name, or where the states are
+  std::vector<FrameSpan> frames;  // empty: all
+  std::filesystem::path from;     // a run whose states are drawn; empty: simulate
+  bool simulate_only = false;     // keep the states, and draw nothing
   Existing existing = Existing::refuse;
   int threads = 0;  // 0: one per core
   ProgressStyle progress = ProgressStyle::automatic;
@@ -25,6 +27,8 @@ struct RenderOptions {
 
 /// Where the run's files go.
 std::filesystem::path output_of(const RenderOptions& options);
+/// What to do with what is there.
+Existing existing_of(const RenderOptions& options);
 /// Which frames are drawn. Throws InputError when the scene does not have them.
 FrameRange range_of(const RenderOptions& options, const Scene& scene);
 

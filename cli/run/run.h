@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/run/drawn_scene.h"
+#include "cli/run/frame_list.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/simulation.h"
 
@@ -15,11 +16,6 @@ struct Run {
   const DrawnScene& drawn;
   const StepChoice& choice;
   const std::string& command;  // as it was typed
-};
-
-/// Which frames to draw, 1-based, both ends included. Frame f shows the time (f - 1) / fps.
-struct FrameRange {
-  long first = 1, last = 0;
 };
 
 /// Number of frames of a scene: those whose time lies before its duration.

@@ -55,8 +55,8 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
                              {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
                              {"Step limits", limits_text(choice)},
                              {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
-                                                       scene.duration, report.steps)}});
-  if (report.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.solves));
+                                                       scene.duration, report.facts.steps)}});
+  if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
   facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
                              {"Images", images_text(report)},
                              {"Time taken", time_taken(progress, report)},

@@ -33,7 +33,10 @@ long start_frame(const RunPage& page) {
   const std::vector<PlotPoint> kinetic = page.series.points(Quantity::kinetic);
   const auto most = std::max_element(kinetic.begin(), kinetic.end(),
                                      [](const PlotPoint& a, const PlotPoint& b) { return a.value < b.value; });
-  return std::clamp(std::lround(most->time * page.fps) + 1, page.series.first_frame(), page.series.last_frame());
+  const long frame =
+      std::clamp(std::lround(most->time * page.fps) + 1, page.series.first_frame(), page.series.last_frame());
+  const auto next = std::lower_bound(page.listed.begin(), page.listed.end(), frame);
+  return page.listed.empty() ? frame : next == page.listed.end() ? page.listed.back() : *next;
 }
 
 int clock_decimals(const RunPage& page) { return page.fps > 100.0 ? 4 : 2; }
@@ -108,6 +111,7 @@ std::string player(const RunPage& page) {
                                        {"begin", axis.begin},
                                        {"end", axis.end},
                                        {"views", page.views},
+                                       {"listed", page.listed},
                                        {"decimals", clock_decimals(page)}};
   return fill_template(page_file("player.html"),
                        {{"at", fmt::format("{:.5f}", axis.share(start_time))},
@@ -144,7 +148,8 @@ std::string facts(const RunPage& page) {
 }
 
 std::string files(const RunPage& page) {
-  std::string html = "<a href=\"run.json\">run.json</a> has every number";
+  std::string html =
+      "<a href=\"run.json\">run.json</a> has every number, <a href=\"frames.csv\">frames.csv</a> those of the plots";
   if (page.strip_columns > 0)
     html += ", <a href=\"velocity_strip.png\">velocity_strip.png</a> every particle in its own row of pixels";
   return html + ".";

@@ -22,7 +22,8 @@ struct RunPage {
   std::vector<std::string> views;  // names, also of the frames' folders
   int width = 0, height = 0;       // [pixel] of a frame
   double fps = 0.0;                // frame f is at (f - 1) / fps
-  RunSeries series;                // knows which frames there are, too
+  RunSeries series;                // knows the first frame and the last, too
+  std::vector<long> listed;        // the frames that were drawn, ascending; empty: all from the first to the last
   int strip_columns = 0;           // 0: no strip
   double strip_step = 0.0;         // [s] between columns
   double spectrum_time = -1.0;     // [s] of the velocity image beside the spectrum; < 0: neither

@@ -20,7 +20,11 @@ Json begun(const Scene& scene, const std::string& command, const char* status) {
   return {{"billow", version()},
           {"status", status},
           {"command", command},
-          {"scene", {{"file", scene.file.string()}, {"hash", scene.hash}, {"effective", scene.effective}}}};
+          {"scene",
+           {{"file", scene.file.string()},
+            {"hash", scene.hash},
+            {"timeless_hash", scene.timeless_hash},
+            {"effective", scene.effective}}}};
 }
 
 Json estimate(const sim::EigenvalueEstimate& e) {
@@ -30,9 +34,10 @@ Json estimate(const sim::EigenvalueEstimate& e) {
 Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json watch_record(const Scene& scene, const StepChoice& choice, const FilmReport& report) {
-  Json json = {
-      {"changes_step", scene.solver.watch}, {"largest_strain", report.largest_strain}, {"incidents", Json::array()}};
-  for (const sim::Incident& incident : report.incidents)
+  Json json = {{"changes_step", scene.solver.watch},
+               {"largest_strain", report.facts.largest_strain},
+               {"incidents", Json::array()}};
+  for (const sim::Incident& incident : report.facts.incidents)
     json["incidents"].push_back({{"kind", name(incident.kind)},
                                  {"seen", incident.seen},
                                  {"from", incident.begin},
@@ -69,15 +74,15 @@ Json solver_record(const Run& run, const FilmReport& report) {
                {"k0", estimate(choice.k0)}};
   if (choice.filtered) json["filtered_eigenvalue"] = estimate(*choice.filtered);
   json["filter"] = filter_record(run, report);
-  json["steps"] = report.steps;
+  json["steps"] = report.facts.steps;
   json["simulated_time"] = report.simulated_time;
   json["set_by"] = choice.setter ? Json(sim::text_of(run.simulation.structure(), *choice.setter)) : Json();
   json["watch"] = watch_record(scene, choice, report);
-  json["linear_solves"] = {{"count", report.solves.solves},
-                           {"iterations", report.solves.iterations},
-                           {"tightened", report.solves.tightened},
-                           {"by_cholesky", report.solves.by_cholesky},
-                           {"not_converged", report.solves.failures}};
+  json["linear_solves"] = {{"count", report.facts.solves.solves},
+                           {"iterations", report.facts.solves.iterations},
+                           {"tightened", report.facts.solves.tightened},
+                           {"by_cholesky", report.facts.solves.by_cholesky},
+                           {"not_converged", report.facts.solves.failures}};
   return json;
 }
 
@@ -119,14 +124,22 @@ Json processor_record(const Survey& survey, const FilmReport& report) {
 
 }  // namespace
 
-std::string begun_record(const Scene& scene, const std::string& command) {
-  return begun(scene, command, "running").dump(2) + "\n";
+Json bounds_record(const render::RunBounds& bounds) {
+  const auto list = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  return {{"low", list(bounds.box.min())}, {"high", list(bounds.box.max())}, {"velocity_scale", bounds.velocity_scale}};
+}
+
+std::string begun_record(const Run& run, const Json& bounds) {
+  Json json = begun(run.scene, run.command, "running");
+  if (!bounds.is_null()) json["bounds"] = bounds;
+  return json.dump(2) + "\n";
 }
 
 namespace {
 
 // Everything but the frames.
-Json finished(const Run& run, const Survey& survey, const FilmReport& report, const Progress& progress) {
+Json finished(const Run& run, const Survey& survey, const FilmReport& report, const Progress& progress,
+              const Json& inherited) {
   const char* status = report.divergence ? "diverged" : report.interrupted_by ? "interrupted" : "done";
   Json json = begun(run.scene, run.command, status);
   if (report.divergence) json["divergence"] = *report.divergence;
@@ -134,9 +147,18 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   json["springs"] = run.simulation.structure().springs();
   json["solver"] = solver_record(run, report);
   json["velocity_range"] = report.velocity_range;
+  json["bounds"] = bounds_record(survey.bounds);
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;
   json["strip_columns"] = report.strip_columns;
+  json["arrays"] = Json::array();
+  for (const WrittenArray& array : report.arrays)
+    json["arrays"].push_back({{"file", array.file},
+                              {"dtype", array.type},
+                              {"shape", array.shape},
+                              {"axes", array.axes},
+                              {"unit", array.unit}});
+  for (const auto& [key, value] : inherited.items()) json[key] = value;
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
@@ -152,9 +174,10 @@ void append(AtomicFile& file, std::string_view text) {
 
 // The frames go through memory one by one, so that a film's length does not show there.
 void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
-                           const FilmReport& report, const Progress& progress) {
+                           const FilmReport& report, const Progress& progress,
+                           const nlohmann::ordered_json& inherited) {
   AtomicFile output(file);
-  const std::string head = finished(run, survey, report, progress).dump(1);
+  const std::string head = finished(run, survey, report, progress, inherited).dump(1);
   append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
   append(output, ",\n \"frames\": [");
   const char* separator = "\n  ";

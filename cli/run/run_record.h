@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cli/run/film.h"
@@ -10,12 +11,16 @@
 
 namespace billow::cli {
 
-/// The record of a run that has only begun: enough for --resume to know it by.
-std::string begun_record(const Scene& scene, const std::string& command);
+/// What all pictures of a run share. Numbers read back to the bit.
+nlohmann::ordered_json bounds_record(const render::RunBounds& bounds);
+
+/// The record of a run that has only begun, enough for --resume to know it by. `bounds` are those of the pictures that
+/// are there, null where none are known.
+std::string begun_record(const Run& run, const nlohmann::ordered_json& bounds);
 
 /// Writes the record of a run that ended, whole, diverged or interrupted, to `file`: whole or not at all. Its times are
-/// those of `progress` until now. Throws OutputError.
+/// those of `progress` until now; what is `inherited` stands for what this process did not make. Throws OutputError.
 void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
-                           const FilmReport& report, const Progress& progress);
+                           const FilmReport& report, const Progress& progress, const nlohmann::ordered_json& inherited);
 
 }  // namespace billow::cli

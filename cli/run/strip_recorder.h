@@ -1,6 +1,7 @@
 // The RGB velocity-evolution strip of a run.
 #pragma once
 
+#include "base/npy_file.h"
 #include "cli/run/recorder.h"
 #include "cli/run/schedule.h"
 #include "cli/run/strip_rows.h"
@@ -13,13 +14,14 @@ class StripRecorder : public Recorder {
   StripRecorder(const RecorderSetting& setting, FilmReport& report);
   double wants() const override { return columns_.next(); }
   void add(double time, const sim::State& state) override;
-  /// Writes the strip, if it has a column, and says in the report how many.
+  /// Writes the strip, as a picture and as numbers, if it has a column, and says so in the report.
   void finish() override;
 
  private:
   Schedule columns_;
   StripRows rows_;
   render::VelocityStrip strip_;
+  NpyFile array_;
   FilmReport& report_;
 };
 

@@ -111,8 +111,10 @@ struct Scene {
   std::vector<CacheFormat> caches;  // in the order in which they are written
   std::optional<StripSpec> strip;
   std::optional<SpectrumSpec> spectrum;
-  std::string effective;  // the whole scene with every default written out, as YAML that reads back to this scene
-  std::string hash;       // 16 hex digits over `effective` and the bytes of every file it names
+  std::string effective;      // the whole scene with every default written out, as YAML that reads back to this scene
+  std::string hash;           // 16 hex digits over `effective` and the bytes of every file it names
+  std::string timeless_hash;  // the same, however long it takes
+  std::string motion_hash;    // over what of it moves, however long: scenes that agree in it have the same states
 };
 
 /// Told of a file that is about to be read.

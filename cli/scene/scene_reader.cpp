@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "cli/scene/hash.h"
+#include "cli/scene/fingerprint.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/scene_keys.h"
 #include "cli/scene/scene_parts.h"
@@ -75,28 +75,6 @@ std::vector<std::string> names_of(const std::vector<BodyDraft>& drafts) {
   return names;
 }
 
-template <class Value>
-std::string_view bytes_of(const Value* values, std::size_t count) {
-  return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
-}
-
-// The geometry goes in beside the mesh file's bytes, because a glTF keeps it in a second file.
-void add_files(Hash& hash, const std::filesystem::path& mesh_file, const sim::Mesh& mesh, const Look& look) {
-  if (!mesh_file.empty()) hash.add_file(mesh_file);
-  hash.add(bytes_of(mesh.position.data(), static_cast<std::size_t>(mesh.position.size())));
-  hash.add(bytes_of(mesh.face.data(), mesh.face.size()));
-  if (!look.texture_file.empty()) hash.add_file(look.texture_file);
-}
-
-std::string fingerprint(const Scene& scene) {
-  Hash hash;
-  hash.add(scene.effective);
-  for (const BodySpec& body : scene.bodies) add_files(hash, body.mesh_file, body.mesh, body);
-  for (const ColliderSpec& collider : scene.colliders)
-    add_files(hash, collider.mesh_file, collider.solid.mesh, collider);
-  return hash.hex();
-}
-
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides, const FileWatch& watch) {
@@ -126,7 +104,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch));
   for (ColliderDraft& draft : colliders) scene.colliders.push_back(load_collider(std::move(draft), watch));
   scene.contact = contact_of(scene, render.ground);
-  scene.hash = fingerprint(scene);
+  take_fingerprints(record, scene);
   return scene;
 }
 

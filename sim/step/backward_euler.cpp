@@ -31,6 +31,8 @@ class LinearisedMatrix : public ImplicitMatrix {
     preconditioner_.set(system_, iterations);
   }
 
+  void forget() { preconditioner_.forget(); }
+
   const StiffnessMatrix& stiffness() const { return stiffness_; }
 
   void multiply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) const override { system_.multiply(x, y); }
@@ -68,6 +70,11 @@ class BackwardEuler : public Integrator {
     solve_->solve(state.velocity, b_, velocity);
     last_iterations_ = solve_->counts().iterations - before;
     return {.by_new = h};
+  }
+
+  void forget() override {
+    if (solve_) solve_->forget(), matrix_->forget();
+    last_iterations_ = 0;
   }
 
   SolveCounts solve_counts() const override { return solve_ ? solve_->counts() : SolveCounts{}; }

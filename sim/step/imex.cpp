@@ -60,6 +60,10 @@ class Imex : public Integrator {
     return {.by_new = h};
   }
 
+  void forget() override {
+    if (solve_) solve_->forget();
+  }
+
   SolveCounts solve_counts() const override { return solve_ ? solve_->counts() : SolveCounts{}; }
 
  private:

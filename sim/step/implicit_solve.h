@@ -36,6 +36,9 @@ class ImplicitSolve {
   /// zero.
   void solve(const Eigen::MatrixX3d& old, Eigen::MatrixX3d& b, Eigen::MatrixX3d& velocity);
 
+  /// The first guess of the next solve knows nothing of those before.
+  void forget() { previous_change_.setZero(), change_.setZero(); }
+
   const SolveCounts& counts() const { return counts_; }
 
  private:

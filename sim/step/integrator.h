@@ -49,6 +49,9 @@ class Integrator {
   /// the step.
   virtual Move integrate(StepForces& forces, State& state, double h, Eigen::MatrixX3d& velocity) = 0;
 
+  /// What earlier steps left behind goes: the next one depends on its state alone.
+  virtual void forget() {}
+
   virtual SolveCounts solve_counts() const { return {}; }
 };
 

@@ -46,6 +46,7 @@ void Step::operator()(State& state, double h) {
 }
 
 void Step::forget() {
+  integrator_->forget();
   for (const auto& hook : hooks_) hook->forget();
 }
 

@@ -52,7 +52,7 @@ class Step {
   /// state (t) -> state (t + h).
   void operator()(State& state, double h);
 
-  /// The next step does not follow from the last one.
+  /// The next step depends on its state alone, and not on what steps before it left behind.
   void forget();
   /// Whether the last step's positions went straight as far as its hooks know.
   bool straight() const;

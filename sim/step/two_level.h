@@ -18,6 +18,8 @@ class TwoLevel {
   explicit TwoLevel(const Structure& structure) : structure_(structure) {}
   /// Takes a positive definite `matrix`, after a solve that took `iterations`.
   void set(const StiffnessMatrix& matrix, long iterations);
+  /// As if no solve had gone before.
+  void forget() { used_ = false, age_ = 0; }
   /// y (n x 3) = something near A^-1 times x (n x 3).
   void apply(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y);
 

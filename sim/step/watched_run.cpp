@@ -32,6 +32,29 @@ WatchedRun::WatchedRun(const Structure& structure, const Forces& forces, std::un
       baseline_(energy()),
       thrown_(kinetic_energy(structure, solver_->state())) {}
 
+void WatchedRun::go_on_from(const Checkpoint& checkpoint) {
+  solver_->set_halvings(checkpoint.halvings);
+  solver_->go_back(checkpoint.solver);
+  baseline_ = checkpoint.baseline, options_.energy_share = checkpoint.energy_share;
+  calm_ = checkpoint.calm, calm_needed_ = checkpoint.calm_needed;
+  incident_open_ = checkpoint.incident_open, incidents_ = checkpoint.incidents;
+  steps_ = checkpoint.steps, time_ = checkpoint.time;
+  earlier_ = checkpoint.solves;
+}
+
+SolveCounts WatchedRun::solve_counts() const {
+  SolveCounts counts = earlier_;
+  return counts += solver_->solve_counts();
+}
+
+// Forgetting is a part of every run, so that one that goes on from here takes the same steps.
+void WatchedRun::rest() {
+  solver_->go_back(solver_->checkpoint());
+  if (!watcher_) return;
+  watcher_({solver_->checkpoint(), solver_->halvings(), baseline_, options_.energy_share, calm_, calm_needed_,
+            incident_open_, steps_, time_, incidents_, solve_counts()});
+}
+
 double WatchedRun::energy() const {
   const State& state = solver_->state();
   return kinetic_energy(structure_, state) + forces_.potential_energy(state) - solver_->work();
@@ -53,6 +76,8 @@ std::optional<WatchedRun::Sample> WatchedRun::next() {
 }
 
 void WatchedRun::run_stretch() {
+  if (stretches_ > 0 && stretches_ % options_.resting_place == 0) rest();
+  ++stretches_;
   const Solver::Checkpoint good = solver_->checkpoint();
   const double end = solver_->time_after(options_.stretch);
   std::vector<double> times;

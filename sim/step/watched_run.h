@@ -19,6 +19,7 @@ struct WatchOptions {
   double energy_share = 0.02;  // of it by which the energy may climb
   int stretch = 64;            // steps from one good state to the next
   bool from_start = false;     // climbs count from the first energy instead of the lowest so far
+  int resting_place = 32;      // stretches from one checkpoint to the next
 };
 
 /// Something that went wrong, and what was done.
@@ -50,9 +51,30 @@ class WatchedRun {
   /// The next time [s] at which a state is wanted, ascending from call to call; infinite when there is none.
   using NextTime = std::function<double()>;
 
+  /// All that a run goes on from as if it had never stopped.
+  struct Checkpoint {
+    Solver::Checkpoint solver;
+    int halvings = 0;
+    double baseline = 0.0, energy_share = 0.0;  // [J], and of the scale
+    int calm = 0, calm_needed = 0;
+    bool incident_open = false;
+    long steps = 0;
+    double time = 0.0;  // [s]
+    std::vector<Incident> incidents = {};
+    SolveCounts solves = {};
+  };
+  /// Told of a place to go on from once every state before it was delivered and asked for the next.
+  using Watcher = std::function<void(const Checkpoint&)>;
+
   /// What they refer to must outlive it.
   WatchedRun(const Structure& structure, const Forces& forces, std::unique_ptr<Solver> solver,
              const WatchOptions& options, NextTime next_time);
+
+  /// Takes the run on from `checkpoint`, of a run of the same scene; call it before the first next(), whose time must
+  /// lie after it.
+  void go_on_from(const Checkpoint& checkpoint);
+  /// Every run forgets at its checkpoints what its steps remember of those before, watched or not.
+  void watch_checkpoints(Watcher watcher) { watcher_ = std::move(watcher); }
 
   /// The next state, or nothing at the end. Throws DivergenceError once all that came before is delivered.
   std::optional<Sample> next();
@@ -63,6 +85,7 @@ class WatchedRun {
   /// of the last of them.
   long steps() const { return steps_; }
   double time() const { return time_; }
+  SolveCounts solve_counts() const;
 
  private:
   enum class Outcome { good, energy, divergence };
@@ -76,6 +99,7 @@ class WatchedRun {
     std::string blocked;  // what is in the way of what, where no step is to blame
   };
 
+  void rest();
   void run_stretch();
   Attempt attempt(const std::vector<double>& times, double end);
   Outcome judge() const;
@@ -97,8 +121,11 @@ class WatchedRun {
   double baseline_ = 0.0;           // [J] that climbs count from
   double thrown_ = 0.0;             // [J] kinetic energy at the start
   int calm_ = 0, calm_needed_ = 2;  // stretches without trouble at a halved step, and how many it takes
+  long stretches_ = 0;
   long steps_ = 0;
   double time_ = 0.0;
+  SolveCounts earlier_;  // of the run that this one goes on from
+  Watcher watcher_;
   bool incident_open_ = false;  // the last one: steps are still halved
   std::deque<Sample> ready_;
   std::optional<std::string> divergence_;

@@ -42,7 +42,7 @@ TEST(SceneFaults, Keys) {
       {"      mesh: cloth.obj\n", "", "scene.yaml:7:7: cloth needs the key 'mesh'"},
       {"bodies:\n", "objects:\n",
        "scene.yaml:4:1: unknown key 'objects' in the scene; its keys are: billow, duration, gravity, bodies, "
-       "colliders, water, wind, solver, render, strip, spectrum"},
+       "colliders, water, wind, solver, render, caches, strip, spectrum"},
       {"duration: 2", "? [a, b]\n: 2", "scene.yaml:2:3: a key must be a word"},
       {"duration: 2", "? {a: b}\n: 2", "scene.yaml:2:3: a key must be a word"},
   });

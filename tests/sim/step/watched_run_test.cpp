@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 #include "sim/body/momenta.h"
@@ -19,10 +20,11 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// 0, 1/fps, 2/fps, ... before `end`.
-WatchedRun::NextTime every(double interval, double end) {
-  return [interval, end, k = 0L]() mutable {
-    const double time = static_cast<double>(k++) * interval;
+/// 0, 1/fps, 2/fps, ... before `end`; those after `begin` where it is no longer 0.
+WatchedRun::NextTime every(double interval, double end, double begin = 0.0) {
+  return [interval, end, begin, k = 0L]() mutable {
+    double time = static_cast<double>(k++) * interval;
+    while (begin > 0.0 && time <= begin) time = static_cast<double>(k++) * interval;
     return time < end - 1e-9 ? time : HUGE_VAL;
   };
 }
@@ -31,7 +33,7 @@ struct Scene {
   Structure structure = test::light_cloth(6, 6, {0});
   Eigen::Vector3d gravity{0.0, -9.81, 0.0}, velocity = Eigen::Vector3d::Zero();
   Method method = Method::fb_euler;
-  double step = 0.004, end = 2.0, interval = 0.02;
+  double step = 0.004, begin = 0.0, end = 2.0, interval = 0.02;
   bool changes_step = true;
 
   State start() const {
@@ -50,6 +52,7 @@ struct Outcome {
   std::vector<Incident> incidents;
   std::vector<double> energy;
   long steps = 0;
+  SolveCounts solves;
   int halvings_at_the_end = 0;
   std::string divergence;
 
@@ -60,7 +63,10 @@ struct Outcome {
   }
 };
 
-Outcome run(const Scene& scene) {
+using Preparation = std::function<void(WatchedRun&)>;
+
+Outcome run(
+    const Scene& scene, const Preparation& prepare = [](WatchedRun&) {}) {
   const Forces forces(scene.structure, scene.gravity);
   WatchedRun watched(
       scene.structure, forces,
@@ -69,7 +75,8 @@ Outcome run(const Scene& scene) {
           SolverOptions{.method = scene.method, .step = scene.step, .limit = 0.005, .max_strain = torn_strain},
           scene.start()),
       {.changes_step = scene.changes_step, .energy_scale = scene.scale(), .stretch = 16},
-      every(scene.interval, scene.end));
+      every(scene.interval, scene.end, scene.begin));
+  prepare(watched);
   Outcome outcome;
   try {
     while (auto sample = watched.next()) {
@@ -81,9 +88,43 @@ Outcome run(const Scene& scene) {
   }
   outcome.incidents = watched.incidents();
   outcome.steps = watched.steps();
+  outcome.solves = watched.solve_counts();
   outcome.halvings_at_the_end = watched.solver().halvings();
   return outcome;
 }
+
+// A run that goes on from a checkpoint delivers what one that never stopped does, to the bit, and tells the same of it.
+class GoingOn : public testing::TestWithParam<Method> {};
+
+TEST_P(GoingOn, IsTheRunThatNeverStopped) {
+  Scene scene;
+  scene.method = GetParam();
+  scene.velocity = {20.0, 5.0, 30.0};
+  scene.step = is_explicit(scene.method) ? 0.004 : 0.01, scene.end = 16.0;
+  std::vector<WatchedRun::Checkpoint> checkpoints;
+  const auto watched = [&](WatchedRun& run) {
+    run.watch_checkpoints([&](const auto& checkpoint) { checkpoints.push_back(checkpoint); });
+  };
+  const Outcome whole = run(scene, watched);
+  ASSERT_GE(checkpoints.size(), 2U);
+  const WatchedRun::Checkpoint from = checkpoints[checkpoints.size() / 2];
+  Scene rest = scene;
+  rest.begin = from.solver.state.time;
+  const Outcome later = run(rest, [&](WatchedRun& run) { run.go_on_from(from); });
+  const std::size_t before = whole.samples.size() - later.samples.size();
+  ASSERT_GT(later.samples.size(), 10U);
+  for (std::size_t k = 0; k < later.samples.size(); ++k) {
+    ASSERT_EQ(later.samples[k].time, whole.samples[before + k].time);
+    ASSERT_EQ(later.samples[k].state.position, whole.samples[before + k].state.position) << k;
+    ASSERT_EQ(later.samples[k].state.velocity, whole.samples[before + k].state.velocity) << k;
+  }
+  EXPECT_EQ(later.steps, whole.steps);
+  ASSERT_EQ(later.incidents.size(), whole.incidents.size());
+  for (std::size_t k = 0; k < whole.incidents.size(); ++k) EXPECT_EQ(later.incidents[k].end, whole.incidents[k].end);
+  EXPECT_EQ(later.solves.iterations, whole.solves.iterations);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, GoingOn, testing::Values(Method::fb_euler, Method::backward_euler, Method::imex));
 
 TEST(WatchedRun, IsTheSolverWhereAllIsWell) {
   Scene scene;

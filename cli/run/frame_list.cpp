@@ -1,0 +1,82 @@
+// Lists of frames as users write them.
+#include "cli/run/frame_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace billow::cli {
+
+namespace {
+
+std::optional<long> parse_whole(std::string_view text) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1) return std::nullopt;
+  return value;
+}
+
+std::optional<FrameSpan> parse_span(std::string_view text) {
+  FrameSpan span;
+  if (const std::size_t colon = text.find(':'); colon != text.npos) {
+    const auto step = parse_whole(text.substr(colon + 1));
+    if (!step || text.find('-') > colon) return std::nullopt;
+    span.step = *step;
+    text = text.substr(0, colon);
+  }
+  const std::size_t dash = text.find('-');
+  const auto first = parse_whole(text.substr(0, dash));
+  if (!first) return std::nullopt;
+  span.first = *first;
+  if (dash == text.npos) return span.last = span.first, span;
+  if (dash + 1 == text.size()) return span;
+  span.last = parse_whole(text.substr(dash + 1));
+  return span.last && *span.last >= span.first ? std::optional(span) : std::nullopt;
+}
+
+std::string text_of(const FrameSpan& span) {
+  return span.last == span.first ? std::to_string(span.first)
+                                 : fmt::format("{}-{}", span.first, span.last ? std::to_string(*span.last) : "");
+}
+
+}  // namespace
+
+bool FrameRange::contains(long frame) const {
+  if (frame < first || frame > last) return false;
+  return listed.empty() || std::binary_search(listed.begin(), listed.end(), frame);
+}
+
+long FrameRange::count() const { return listed.empty() ? last - first + 1 : static_cast<long>(listed.size()); }
+
+std::optional<std::vector<FrameSpan>> parse_frames(const std::string& text) {
+  std::vector<FrameSpan> spans;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const auto span = parse_span(std::string_view(text).substr(at, end - at));
+    if (!span) return std::nullopt;
+    spans.push_back(*span);
+    at = end + 1;
+  }
+  return spans;
+}
+
+FrameRange frames_in(const std::vector<FrameSpan>& spans, long total) {
+  std::vector<long> frames;
+  for (const FrameSpan& span : spans) {
+    if (span.first > total || span.last.value_or(total) > total)
+      throw InputError(fmt::format("--frames {}: the scene has frames 1 to {}", text_of(span), total));
+    const long last = span.last.value_or(total);
+    for (long k = 0; k <= (last - span.first) / span.step; ++k) frames.push_back(span.first + k * span.step);
+  }
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  FrameRange range{frames.front(), frames.back(), {}};
+  if (static_cast<long>(frames.size()) < range.count()) range.listed = std::move(frames);
+  return range;
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,114 @@
+// Simulating, storing and reading back.
+#include "cli/run/simulated_states.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+
+namespace billow::cli {
+
+namespace {
+
+RunFacts facts_of(const sim::WatchedRun& run) {
+  return {run.steps(), run.time(), run.solve_counts(), run.incidents(), run.solver().largest_strain()};
+}
+
+bool is_frame(const Scene& scene, double moment) {
+  const double number = moment * scene.render.fps;
+  return std::abs(std::round(number) / scene.render.fps - moment) <= Schedule::together;
+}
+
+}  // namespace
+
+SimulatedStates::SimulatedStates(const Run& run, long last_frame)
+    : moments_(all_schedules(run.scene, last_frame)),
+      watched_(run.simulation.make_run(run.choice, [this] { return moments_.take(); })) {}
+
+RunFacts SimulatedStates::facts() const { return facts_of(*watched_); }
+
+KeptStates::KeptStates(const Run& run, long last_frame, StateStore store, bool go_on)
+    : run_(run), store_(std::move(store)), moments_(all_schedules(run.scene, last_frame)) {
+  if (go_on && store_.holds_this_run()) checkpoint_ = store_.read_checkpoint();
+  if (checkpoint_ && !holds_all_before_checkpoint()) checkpoint_.reset();
+  store_.write_record({});
+}
+
+// A strip with other columns asks for other moments.
+bool KeptStates::holds_all_before_checkpoint() const {
+  Moments moments = moments_;
+  for (double moment = moments.take(); moment <= checkpoint_->solver.state.time; moment = moments.take())
+    if (!store_.has(moment)) return false;
+  return true;
+}
+
+std::optional<sim::WatchedRun::Sample> KeptStates::next() {
+  std::optional<sim::WatchedRun::Sample> sample;
+  if (!watched_) {
+    const double moment = moments_.take();
+    if (checkpoint_ && moment <= checkpoint_->solver.state.time) {
+      sample = store_.read(moment);
+      sample->time = moment;  // as this run asks for it: duration and frames may round otherwise
+    } else {
+      start(moment);
+    }
+  }
+  if (watched_) {
+    try {
+      sample = watched_->next();
+    } catch (const DivergenceError& error) {
+      end(error.what());
+      throw;
+    }
+    if (!sample) return end(""), std::nullopt;
+    store_.write(*sample);
+  }
+  frames_ += is_frame(run_.scene, sample->time);
+  return sample;
+}
+
+void KeptStates::start(double first_moment) {
+  pending_ = first_moment;
+  watched_ = run_.simulation.make_run(
+      run_.choice, [this] { return pending_ ? *std::exchange(pending_, std::nullopt) : moments_.take(); });
+  if (checkpoint_) watched_->go_on_from(*checkpoint_);
+  watched_->watch_checkpoints([this](const auto& checkpoint) { store_.write_checkpoint(checkpoint); });
+}
+
+void KeptStates::end(const std::string& divergence) { store_.write_record({facts(), frames_, true, divergence}); }
+
+RunFacts KeptStates::facts() const {
+  if (watched_) return facts_of(*watched_);
+  if (!checkpoint_) return {};
+  return {checkpoint_->steps, checkpoint_->time, checkpoint_->solves, checkpoint_->incidents,
+          checkpoint_->solver.largest_strain};
+}
+
+StoredStates::StoredStates(const Run& run, StateStore store)
+    : store_(std::move(store)), frames_(frame_schedule(run.scene, frame_count(run.scene))) {
+  const std::string folder = store_.folder().string();
+  if (!store_.holds_this_run())
+    throw InputError(fmt::format("{}: there are no states; write them with 'billow simulate'", folder));
+  record_ = store_.read_record();
+  const long wanted = frame_count(run.scene);
+  if (!record_.finished)
+    throw InputError(
+        fmt::format("{}: this simulation has not finished; go on with 'billow simulate --resume'", folder));
+  if (record_.frames < wanted && record_.divergence.empty())
+    throw InputError(fmt::format("{}: there are {} frames, and the scene has {}; go on with 'billow simulate --resume'",
+                                 folder, record_.frames, wanted));
+}
+
+std::optional<sim::WatchedRun::Sample> StoredStates::next() {
+  const double moment = frames_.next();
+  if (!std::isfinite(moment)) return std::nullopt;
+  if (frames_.taken() >= record_.frames) throw DivergenceError(record_.divergence);
+  frames_.take(moment);
+  sim::WatchedRun::Sample sample = store_.read(moment);
+  sample.time = moment;
+  return sample;
+}
+
+}  // namespace billow::cli
