@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/run/frame_log.h"
@@ -35,6 +36,14 @@ struct Survey {
   StageCost cost;
 };
 
+/// A geometry cache that the run wrote.
+struct CacheReport {
+  CacheFormat format;
+  std::string_view file;  // within the run's folder
+  long keys = 0;          // frames that it holds
+  std::size_t bytes = 0;
+};
+
 struct FilmReport {
   FrameLog frames;
   RunSeries series = {};  // of the same frames
@@ -52,6 +61,7 @@ struct FilmReport {
   std::optional<std::string> divergence = {};  // the message, when the run diverged
   std::vector<sim::Incident> incidents = {};   // what went wrong and was mended
   double largest_strain = 0.0;                 // [rest lengths] of any spring
+  std::vector<CacheReport> caches = {};
   std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 

@@ -41,6 +41,7 @@ void remove_earlier_run(const fs::path& folder) {
   }
   for (const std::string_view file : all_words<RunFile>())
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
+  if (fs::is_directory(folder / "caches", error)) fs::remove(folder / "caches", error);  // only if it is empty now
 }
 
 // The scene hash that a run's record names; empty where there is no such record.
@@ -67,6 +68,8 @@ Words<RunFile> words(RunFile) {
                                            {"velocity_image.png", RunFile::velocity_image},
                                            {"velocity_spectrum.png", RunFile::spectrum},
                                            {"spectrum.csv", RunFile::spectrum_table},
+                                           {"caches/scene.glb", RunFile::glb},
+                                           {"caches/scene.glb.js", RunFile::glb_script},
                                            {"run.json", RunFile::record},
                                            {"index.html", RunFile::page}};
   return list;

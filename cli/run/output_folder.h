@@ -22,7 +22,7 @@ void make_folder(const std::filesystem::path& folder);
 void check_output_folder(const std::filesystem::path& folder, Existing existing, const std::string& scene_hash);
 
 /// The files of a run besides its frames.
-enum class RunFile { strip, velocity_image, spectrum, spectrum_table, record, page };
+enum class RunFile { strip, velocity_image, spectrum, spectrum_table, glb, glb_script, record, page };
 Words<RunFile> words(RunFile);
 
 /// DIR of `billow render`: a folder of frames for each view, and the run's files.

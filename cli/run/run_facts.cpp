@@ -113,6 +113,8 @@ RunPage describe_run(const Run& run, const FilmReport& report, const std::vector
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
+  for (const CacheReport& cache : report.caches)
+    if (cache.format == CacheFormat::glb) page.glb = cache.file, page.glb_script = word_of(RunFile::glb_script);
   page.facts = facts_of(run, report, progress);
   page.command = run.command;
   page.scene = scene.effective;

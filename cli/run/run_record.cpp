@@ -93,6 +93,14 @@ Json frame_record(const FrameRecord& f) {
           {"mean_stretch", f.stretch.mean}};
 }
 
+Json cache_records(const FilmReport& report) {
+  Json list = Json::array();
+  for (const CacheReport& cache : report.caches)
+    list.push_back(
+        {{"format", word_of(cache.format)}, {"file", cache.file}, {"frames", cache.keys}, {"bytes", cache.bytes}});
+  return list;
+}
+
 // The phases, which follow one another and add up to `wall`, and the stages that share "render".
 Json seconds_record(const FilmReport& report, const Progress& progress) {
   Json json = Json::object();
@@ -137,6 +145,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;
   json["strip_columns"] = report.strip_columns;
+  json["caches"] = cache_records(report);
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
