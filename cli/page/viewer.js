@@ -93,14 +93,17 @@
     const picture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, picture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array([128, 128, 128, 255]));
-    createImageBitmap(new Blob([file.view(image.bufferView)], { type: image.mimeType })).then((bitmap) => {
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    const bitmap = new Image();
+    bitmap.onload = () => {
+      URL.revokeObjectURL(bitmap.src);
       gl.bindTexture(gl.TEXTURE_2D, picture);
       gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
       gl.generateMipmap(gl.TEXTURE_2D);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
       drawn();
-    });
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    };
+    bitmap.src = URL.createObjectURL(new Blob([file.view(image.bufferView)], { type: image.mimeType }));
     return picture;
   }
 
