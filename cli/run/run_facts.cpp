@@ -114,7 +114,10 @@ RunPage describe_run(const Run& run, const FilmReport& report, const std::vector
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
   for (const CacheReport& cache : report.caches)
-    if (cache.format == CacheFormat::glb) page.glb = cache.file, page.glb_script = word_of(RunFile::glb_script);
+    if (cache.format == CacheFormat::glb) {
+      page.glb = cache.file;
+      page.glb_script = word_of(RunFile::glb_script);
+    }
   page.facts = facts_of(run, report, progress);
   page.command = run.command;
   page.scene = scene.effective;
