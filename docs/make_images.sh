@@ -53,3 +53,8 @@ for picture in figure-4/figure-4 figure-5/figure-5 figure-5/energy-by-frequency 
   cp "$work/$picture.png" docs/images/figures/
 done
 one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.5, 3.4], look_at: [0, -0.3, 0.1], fov: 26}'
+# The model on a run's page, as a browser shows it.
+./billow render scenes/table.yaml -o "$work/page" --progress none --cache glb -D duration=1.5 -D 'render.size=[640, 360]'
+chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --hide-scrollbars --force-device-scale-factor=1 \
+  --user-data-dir="$work/chromium" --window-size=1280,900 --virtual-time-budget=8000 \
+  --screenshot="$PWD/docs/images/page_3d.png" "file://$work/page/index.html#viewer"

@@ -97,6 +97,7 @@
     slider.setAttribute("aria-valuetext", clock.textContent);
     player.style.setProperty("--at", share_of(time));
     read_lines(1000 * share_of(time));
+    document.dispatchEvent(new CustomEvent("billow-time", { detail: time })); // viewer.js
     load_around(frame);
   }
   function seek(number) {

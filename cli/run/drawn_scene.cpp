@@ -10,23 +10,37 @@ DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation) : scene
   if (scene.motes > 0) motes_.emplace(scene.motes, simulation.initial_state().position, scene.water.velocity);
 }
 
-std::vector<render::DrawnBody> DrawnScene::bodies() const {
+std::vector<render::DrawnBody> DrawnScene::solids() const {
   std::vector<render::DrawnBody> drawn;
   for (std::size_t b = 0; b < skin_.size(); ++b)
     drawn.push_back({skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour});
   for (const DrawnCollider& collider : collider_) drawn.push_back(collider.drawn());
+  return drawn;
+}
+
+std::vector<render::DrawnBody> DrawnScene::bodies() const {
+  std::vector<render::DrawnBody> drawn = solids();
   if (motes_) drawn.push_back(motes_->drawn());
   return drawn;
 }
 
-std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
+std::vector<sim::SurfaceState> DrawnScene::solids_from(const Eigen::RowVector3f& path, const sim::State& state) const {
   std::vector<sim::SurfaceState> states;
-  const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
   for (std::size_t b = 0; b < skin_.size(); ++b) {
     states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
     states.back().position.rowwise() -= path;
   }
   for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
+  return states;
+}
+
+std::vector<sim::SurfaceState> DrawnScene::solid_surfaces(const sim::State& state) const {
+  return solids_from(Eigen::RowVector3f::Zero(), state);
+}
+
+std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
+  const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
+  std::vector<sim::SurfaceState> states = solids_from(path, state);
   if (motes_) states.push_back(motes_->at(state.time, path));
   return states;
 }

@@ -21,11 +21,16 @@ class DrawnScene {
   std::vector<render::DrawnBody> bodies() const;
   /// Where all of those are at `state`, as the camera sees it: moved along with the body that it follows.
   std::vector<sim::SurfaceState> surfaces(const sim::State& state) const;
+  /// The drawn bodies, then the colliders: what takes up room in the scene.
+  std::vector<render::DrawnBody> solids() const;
+  /// Where those are at `state`, in the world [m].
+  std::vector<sim::SurfaceState> solid_surfaces(const sim::State& state) const;
   /// The box around the bodies and what of the colliders belongs into a picture of them.
   Eigen::AlignedBox3d box(const sim::State& state) const;
 
  private:
   Eigen::Vector3d camera_path(const sim::State& state) const;
+  std::vector<sim::SurfaceState> solids_from(const Eigen::RowVector3f& path, const sim::State& state) const;
 
   const Scene& scene_;
   const Simulation& simulation_;

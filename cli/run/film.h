@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/run/frame_log.h"
@@ -45,6 +46,14 @@ struct WrittenArray {
   std::string unit;
 };
 
+/// A geometry cache that the run wrote.
+struct CacheReport {
+  CacheFormat format;
+  std::string_view file;  // within the run's folder
+  long keys = 0;          // frames that it holds
+  std::size_t bytes = 0;
+};
+
 struct FilmReport {
   FrameLog frames;
   RunSeries series = {};  // of the same frames
@@ -60,6 +69,7 @@ struct FilmReport {
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
   int interrupted_by = 0;  // the signal that ended the run early, or 0
   std::optional<std::string> divergence = {};  // the message, when the run diverged
+  std::vector<CacheReport> caches = {};
   std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 

@@ -49,6 +49,7 @@ void remove_earlier_run(const fs::path& folder) {
   remove_states(folder / StateStore::folder_name);
   for (const std::string_view file : all_words<RunFile>())
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
+  if (fs::is_directory(folder / "caches", error)) fs::remove(folder / "caches", error);  // only if it is empty now
 }
 
 // Of the same scene, or of one that only ends at another time.
@@ -77,6 +78,8 @@ Words<RunFile> words(RunFile) {
                                            {"velocity_spectrum.npy", RunFile::spectrum_array},
                                            {"spectrum.csv", RunFile::spectrum_table},
                                            {"frames.csv", RunFile::frame_table},
+                                           {"caches/scene.glb", RunFile::glb},
+                                           {"caches/scene.glb.js", RunFile::glb_script},
                                            {"run.json", RunFile::record},
                                            {"index.html", RunFile::page}};
   return list;

@@ -37,6 +37,8 @@ enum class RunFile {
   spectrum_array,
   spectrum_table,
   frame_table,
+  glb,
+  glb_script,
   record,
   page
 };

@@ -1,6 +1,9 @@
 // Which recorders a run has.
 #include "cli/run/recorder.h"
 
+#include <algorithm>
+
+#include "cli/run/glb_recorder.h"
 #include "cli/run/motion_recorder.h"
 #include "cli/run/response_recorder.h"
 #include "cli/run/spectrum_recorder.h"
@@ -19,6 +22,8 @@ std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& set
   if (only_frames) return recorders;
   if (scene.spectrum) recorders.push_back(std::make_unique<SpectrumRecorder>(setting, report));
   if (scene.strip) recorders.push_back(std::make_unique<StripRecorder>(setting, report));
+  if (std::find(scene.caches.begin(), scene.caches.end(), CacheFormat::glb) != scene.caches.end())
+    recorders.push_back(std::make_unique<GlbRecorder>(setting, report));
   return recorders;
 }
 

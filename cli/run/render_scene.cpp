@@ -166,6 +166,7 @@ class SceneRun {
       page.listed = folder_.frames_drawn(frame_count(run_.scene));
       inherited = made_elsewhere(earlier_record(folder_.path()));
       page.strip_columns = inherited.value("strip_columns", 0);
+      if (std::error_code error; std::filesystem::is_regular_file(folder_.file(RunFile::glb), error)) show_model(page);
     } else {
       page.listed = range_of(options_, run_.scene).listed;
     }

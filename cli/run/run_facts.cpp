@@ -97,6 +97,11 @@ std::string time_taken(const Progress& progress, const FilmReport& report) {
   return fmt::format("{:.2f} s ({})", progress.wall(), phases);
 }
 
+void show_model(RunPage& page) {
+  page.glb = word_of(RunFile::glb);
+  page.glb_script = word_of(RunFile::glb_script);
+}
+
 RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,
                      const Progress& progress) {
   const Scene& scene = run.scene;
@@ -113,6 +118,8 @@ RunPage describe_run(const Run& run, const FilmReport& report, const std::vector
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
+  for (const CacheReport& cache : report.caches)
+    if (cache.format == CacheFormat::glb) show_model(page);
   page.facts = facts_of(run, report, progress);
   page.command = run.command;
   page.scene = scene.effective;

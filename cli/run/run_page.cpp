@@ -1,4 +1,4 @@
-// Filling cli/page/run.html and player.html.
+// Filling cli/page/run.html, player.html and viewer.html.
 #include "cli/run/run_page.h"
 
 #include <fmt/format.h>
@@ -128,6 +128,12 @@ std::string player(const RunPage& page) {
                         {"data", json_for_script(data.dump())}});
 }
 
+std::string viewer(const RunPage& page) {
+  if (page.glb.empty()) return "";
+  return fill_template(page_file("viewer.html"),
+                       {{"glb", html_escape(page.glb)}, {"script", html_escape(page.glb_script)}});
+}
+
 // One pixel a cell: enlarged without smoothing.
 std::string spectrum(const RunPage& page) {
   if (page.spectrum_time < 0.0) return "";
@@ -162,12 +168,15 @@ std::string run_page_html(const RunPage& page) {
                                                                  {"summary", html_escape(page.summary)},
                                                                  {"notes", notes(page)},
                                                                  {"player", player(page)},
+                                                                 {"viewer", viewer(page)},
                                                                  {"spectrum", spectrum(page)},
                                                                  {"facts", facts(page)},
                                                                  {"command", html_escape(page.command)},
                                                                  {"scene", html_escape(page.scene)},
                                                                  {"files", files(page)}});
-  return html_page(page.title + " – billow", body, {"run.js"});
+  std::vector<std::string_view> scripts{"run.js"};
+  if (!page.glb.empty()) scripts.insert(scripts.begin(), "viewer.js");  // it hears of the first frame that run.js shows
+  return html_page(page.title + " – billow", body, scripts);
 }
 
 }  // namespace billow::cli

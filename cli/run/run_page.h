@@ -27,6 +27,7 @@ struct RunPage {
   int strip_columns = 0;           // 0: no strip
   double strip_step = 0.0;         // [s] between columns
   double spectrum_time = -1.0;     // [s] of the velocity image beside the spectrum; < 0: neither
+  std::string glb, glb_script;     // the moving geometry and the script that brings it to the page; empty: none
   std::vector<std::pair<std::string, std::string>> facts;  // name, value
   std::string command;                                     // that repeats the run
   std::string scene;                                       // the effective scene

@@ -98,6 +98,14 @@ Json frame_record(const FrameRecord& f) {
           {"mean_stretch", f.stretch.mean}};
 }
 
+Json cache_records(const FilmReport& report) {
+  Json list = Json::array();
+  for (const CacheReport& cache : report.caches)
+    list.push_back(
+        {{"format", word_of(cache.format)}, {"file", cache.file}, {"frames", cache.keys}, {"bytes", cache.bytes}});
+  return list;
+}
+
 // The phases, which follow one another and add up to `wall`, and the stages that share "render".
 Json seconds_record(const FilmReport& report, const Progress& progress) {
   Json json = Json::object();
@@ -158,6 +166,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
                               {"shape", array.shape},
                               {"axes", array.axes},
                               {"unit", array.unit}});
+  json["caches"] = cache_records(report);
   for (const auto& [key, value] : inherited.items()) json[key] = value;
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);

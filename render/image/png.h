@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "base/atomic_file.h"
 #include "render/image/image.h"
@@ -17,6 +18,9 @@ Image read_png(const std::filesystem::path& file);
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.
 void write_png(const std::filesystem::path& file, const Image& image);
+
+/// The bytes of the file that write_png would write.
+std::string encode_png(const Image& image);
 
 /// As write_png, for images too large to hold: `fill_row(y, row)` is asked for one row of pixels after another.
 void write_png_rows(const std::filesystem::path& file, int width, int height, int channels,

@@ -15,14 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A fresh profile, nothing from the network, and no part of the machine that a container may lack.
+// A fresh profile, nothing from the network, WebGL in software, and no part of the machine that a container may lack.
 ToolResult run_chromium(const fs::path& folder, const std::string& page, const std::vector<std::string>& task) {
   const TemporaryFolder home;
   std::vector<std::string> arguments{"--signal=KILL", "60", "chromium"};
-  for (const char* option : {"--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-dev-shm-usage",
-                             "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                             "--disable-sync", "--hide-scrollbars", "--force-device-scale-factor=1",
-                             "--force-color-profile=srgb", "--enable-logging=stderr", "--allow-file-access-from-files"})
+  for (const char* option :
+       {"--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic",
+        "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+        "--disable-sync", "--hide-scrollbars", "--force-device-scale-factor=1", "--force-color-profile=srgb",
+        "--enable-logging=stderr", "--allow-file-access-from-files"})
     arguments.emplace_back(option);
   arguments.push_back("--user-data-dir=" + home.path().string());
   arguments.insert(arguments.end(), task.begin(), task.end());
