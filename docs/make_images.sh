@@ -53,3 +53,8 @@ for picture in figure-4/figure-4 figure-5/figure-5 figure-5/energy-by-frequency 
   cp "$work/$picture.png" docs/images/figures/
 done
 one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.5, 3.4], look_at: [0, -0.3, 0.1], fov: 26}'
+# The drape's geometry in other programs, for docs/export.md.
+./billow render scenes/drape.yaml --frames 1-40 -o "$work/export" --cache pc2,vtp --progress none -D 'render.size=[64, 36]'
+blender -b --factory-startup --python-exit-code 1 --python docs/export_blender.py -- "$work/export/caches" 15 \
+  assets/textures/tartan.png docs/images/export_blender.png
+xvfb-run -a /usr/bin/python3 docs/export_paraview.py "$work/export/caches/drape.pvd" 15 docs/images/export_paraview.png

@@ -20,14 +20,18 @@ std::vector<render::DrawnBody> DrawnScene::bodies() const {
 }
 
 std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
-  std::vector<sim::SurfaceState> states;
+  std::vector<sim::SurfaceState> states = skins_at(state);
   const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
-  for (std::size_t b = 0; b < skin_.size(); ++b) {
-    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
-    states.back().position.rowwise() -= path;
-  }
+  for (sim::SurfaceState& skin : states) skin.position.rowwise() -= path;
   for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
   if (motes_) states.push_back(motes_->at(state.time, path));
+  return states;
+}
+
+std::vector<sim::SurfaceState> DrawnScene::skins_at(const sim::State& state) const {
+  std::vector<sim::SurfaceState> states;
+  for (std::size_t b = 0; b < skin_.size(); ++b)
+    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
   return states;
 }
 

@@ -35,6 +35,15 @@ struct Survey {
   StageCost cost;
 };
 
+/// A geometry cache that was written.
+struct CacheRecord {
+  CacheFormat format;
+  std::string name;            // of the body or collider
+  std::filesystem::path file;  // that a program opens, relative to the run's folder: of a sequence its first
+  long first_frame = 1, frames = 0;
+  int vertices = 0;
+};
+
 struct FilmReport {
   FrameLog frames;
   RunSeries series = {};  // of the same frames
@@ -52,6 +61,7 @@ struct FilmReport {
   std::optional<std::string> divergence = {};  // the message, when the run diverged
   std::vector<sim::Incident> incidents = {};   // what went wrong and was mended
   double largest_strain = 0.0;                 // [rest lengths] of any spring
+  std::vector<CacheRecord> caches = {};
   std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 

@@ -32,13 +32,15 @@ class OutputFolder {
   OutputFolder(std::filesystem::path folder, Existing existing, const std::string& scene_hash,
                const std::vector<render::View>& views);
 
-  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, strip, record and page that
-  /// an earlier run wrote there, and nothing else.
+  /// Call it when the first frame is about to be drawn: `overwrite` now removes the frames, caches, strip, record and
+  /// page that an earlier run wrote there, and nothing else.
   void begin_run();
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path frame(render::View view, long frame) const;
   std::filesystem::path file(RunFile file) const;
+  /// The folder of geometry caches; it need not be there.
+  std::filesystem::path caches() const { return folder_ / "caches"; }
   /// True when resuming and the frame is there already.
   bool keeps(render::View view, long frame) const;
 

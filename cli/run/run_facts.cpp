@@ -41,6 +41,12 @@ std::string images_text(const FilmReport& report) {
   return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
 }
 
+std::string caches_text(const std::vector<CacheRecord>& caches) {
+  std::string text;
+  for (const CacheRecord& cache : caches) text += (text.empty() ? "" : ", ") + cache.file.string();
+  return fmt::format("{}; {} frames", text, caches.front().frames);
+}
+
 Facts facts_of(const Run& run, const FilmReport& report, const Progress& progress) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
@@ -57,6 +63,7 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
                              {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
                                                        scene.duration, report.steps)}});
   if (report.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.solves));
+  if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
   facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
                              {"Images", images_text(report)},
                              {"Time taken", time_taken(progress, report)},

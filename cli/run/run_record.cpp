@@ -93,6 +93,18 @@ Json frame_record(const FrameRecord& f) {
           {"mean_stretch", f.stretch.mean}};
 }
 
+Json cache_records(const FilmReport& report) {
+  Json json = Json::array();
+  for (const CacheRecord& cache : report.caches)
+    json.push_back({{"name", cache.name},
+                    {"format", word_of(cache.format)},
+                    {"file", cache.file.string()},
+                    {"first_frame", cache.first_frame},
+                    {"frames", cache.frames},
+                    {"vertices", cache.vertices}});
+  return json;
+}
+
 // The phases, which follow one another and add up to `wall`, and the stages that share "render".
 Json seconds_record(const FilmReport& report, const Progress& progress) {
   Json json = Json::object();
@@ -137,15 +149,12 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   json["images_written"] = report.images_written;
   json["images_kept"] = report.images_kept;
   json["strip_columns"] = report.strip_columns;
+  json["caches"] = cache_records(report);
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
   json["gl"] = report.gl;
   return json;
-}
-
-void append(AtomicFile& file, std::string_view text) {
-  if (!file.write(text.data(), text.size())) file.fail();
 }
 
 }  // namespace
@@ -155,14 +164,14 @@ void write_finished_record(const std::filesystem::path& file, const Run& run, co
                            const FilmReport& report, const Progress& progress) {
   AtomicFile output(file);
   const std::string head = finished(run, survey, report, progress).dump(1);
-  append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
-  append(output, ",\n \"frames\": [");
+  output.append(std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
+  output.append(",\n \"frames\": [");
   const char* separator = "\n  ";
   for (const FrameRecord& frame : report.frames) {
-    append(output, separator + frame_record(frame).dump());
+    output.append(separator + frame_record(frame).dump());
     separator = ",\n  ";
   }
-  append(output, "\n ]\n}\n");
+  output.append("\n ]\n}\n");
   output.commit();
 }
 
