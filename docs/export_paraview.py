@@ -45,7 +45,6 @@ window.AddRenderer(renderer)
 renderer.GetActiveCamera().SetPosition(0.5, 0.3, 2.4)
 renderer.GetActiveCamera().SetFocalPoint(0, 0, 0)
 renderer.ResetCamera()
-renderer.GetActiveCamera().Zoom(1.5)
 window.Render()
 
 grab = vtk.vtkWindowToImageFilter()

@@ -91,8 +91,12 @@ TEST_F(CacheFiles, Obj) {
     std::string kind;
     Eigen::Vector3f value;
     words >> kind >> value[0] >> value[1] >> value[2];
-    if (kind == "v") EXPECT_EQ(value.transpose(), frames_[0].position.row(vertices++));
-    if (kind == "vt") EXPECT_EQ(value.head<2>().transpose(), mesh_.layout.uv.row(textures++));
+    if (kind == "v") {
+      EXPECT_EQ(value.transpose(), frames_[0].position.row(vertices++));
+    }
+    if (kind == "vt") {
+      EXPECT_EQ(value.head<2>().transpose(), mesh_.layout.uv.row(textures++));
+    }
     if (kind == "f") faces.push_back(line);
   }
   EXPECT_EQ(vertices, 6);

@@ -84,7 +84,9 @@ TEST_F(Caches, OfSomeFramesAreThoseOfAll) {
   const auto some = cached();
   EXPECT_EQ(some.size(), 3u * (4 + 3 * 2));
   for (const auto& [file, bytes] : some)
-    if (file.find("frame_") != file.npos) EXPECT_EQ(bytes, all.at(file)) << file;
+    if (file.find("frame_") != file.npos) {
+      EXPECT_EQ(bytes, all.at(file)) << file;
+    }
   const std::string cut = all.at("carp.pc2").substr(32 + 2 * 12 * 23, 2 * 12 * 23);
   EXPECT_EQ(some.at("carp.pc2").substr(32), cut);
 }
