@@ -52,6 +52,10 @@ bool AtomicFile::write(const void* bytes, std::size_t size) noexcept {
   return std::fwrite(bytes, 1, size, stream_) == size;
 }
 
+void AtomicFile::append(std::string_view bytes) {
+  if (!write(bytes.data(), bytes.size())) fail();
+}
+
 void AtomicFile::commit() {
   // A full disk may show only here: small files sit in the stream's buffer until it is closed.
   std::FILE* stream = std::exchange(stream_, nullptr);
@@ -72,7 +76,7 @@ void AtomicFile::fail() const {
 
 void write_file_atomically(const std::filesystem::path& file, const std::string& contents) {
   AtomicFile output(file);
-  if (!output.write(contents.data(), contents.size())) output.fail();
+  output.append(contents);
   output.commit();
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace billow {
 
@@ -20,6 +21,8 @@ class AtomicFile {
 
   /// Appends `size` bytes; false, with errno set, when they cannot all be written.
   bool write(const void* bytes, std::size_t size) noexcept;
+  /// Appends them, or throws.
+  void append(std::string_view bytes);
   /// Flushes, closes and renames.
   void commit();
   /// Throws OutputError for `target` with the reason that errno holds.

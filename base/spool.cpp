@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -66,6 +67,15 @@ void Spool::read(void* bytes, std::size_t size, std::size_t offset) const {
     to += got;
     offset += static_cast<std::size_t>(got);
     size -= static_cast<std::size_t>(got);
+  }
+}
+
+void Spool::copy_to(AtomicFile& file, std::size_t size) const {
+  std::string piece(std::min(size, std::size_t{1} << 20), '\0');
+  for (std::size_t done = 0; done < size; done += piece.size()) {
+    piece.resize(std::min(piece.size(), size - done));
+    read(piece.data(), piece.size(), done);
+    file.append(piece);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "base/atomic_file.h"
+
 namespace billow {
 
 /// Bytes that are appended now and read again later, in a temporary file without a name: it vanishes with the process,
@@ -19,6 +21,8 @@ class Spool {
   void append(const void* bytes, std::size_t size);
   /// Exactly `size` bytes from `offset` on; they must have been appended.
   void read(void* bytes, std::size_t size, std::size_t offset) const;
+  /// The first `size` bytes, onto the end of `file`.
+  void copy_to(AtomicFile& file, std::size_t size) const;
 
  private:
   [[noreturn]] void fail() const;

@@ -58,3 +58,8 @@ one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.
 chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --hide-scrollbars --force-device-scale-factor=1 \
   --user-data-dir="$work/chromium" --window-size=1280,900 --virtual-time-budget=8000 \
   --screenshot="$PWD/docs/images/page_3d.png" "file://$work/page/index.html#viewer"
+# The drape's geometry in other programs, for docs/export.md.
+./billow render scenes/drape.yaml --frames 1-40 -o "$work/export" --cache pc2,vtp --progress none -D 'render.size=[64, 36]'
+blender -b --factory-startup --python-exit-code 1 --python docs/export_blender.py -- "$work/export/caches" 15 \
+  assets/textures/tartan.png docs/images/export_blender.png
+xvfb-run -a /usr/bin/python3 docs/export_paraview.py "$work/export/caches/drape.pvd" 15 docs/images/export_paraview.png

@@ -43,20 +43,24 @@ sim::Mesh square(const sim::HalfSpace& plane, const Eigen::AlignedBox3d& bodies)
 
 DrawnCollider::DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies) : spec_(spec) {
   const sim::Collider& solid = spec.solid;
-  const sim::Mesh mesh =
-      solid.half_space ? square(*solid.half_space, bodies) : sim::split_at_creases(solid.mesh, crease);
-  position_ = mesh.position;
-  surface_ = sim::build_surface(mesh);
+  if (solid.half_space) square_ = square(*solid.half_space, bodies);
+  const sim::Mesh drawn = solid.half_space ? square_ : sim::split_at_creases(solid.mesh, crease);
+  position_ = drawn.position;
+  surface_ = sim::build_surface(drawn);
 }
 
-sim::SurfaceState DrawnCollider::at(double time, const Eigen::RowVector3f& path) const {
+sim::SurfaceState DrawnCollider::carried(const Eigen::MatrixX3d& points, double time) const {
   const Eigen::Isometry3d place = spec_.solid.motion.at(time);
   const Eigen::Affine3d velocity = spec_.solid.motion.velocity_at(time);
   const auto mapped = [&](const auto& map) -> Eigen::MatrixX3f {
-    const Eigen::MatrixX3d rows = position_ * map.linear().transpose();
+    const Eigen::MatrixX3d rows = points * map.linear().transpose();
     return (rows.rowwise() + map.translation().transpose()).template cast<float>();
   };
-  sim::SurfaceState state{mapped(place), mapped(velocity)};
+  return {mapped(place), mapped(velocity)};
+}
+
+sim::SurfaceState DrawnCollider::at(double time, const Eigen::RowVector3f& path) const {
+  sim::SurfaceState state = carried(position_, time);
   state.position.rowwise() -= path;
   return state;
 }

@@ -17,6 +17,10 @@ class DrawnCollider {
   DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies);
 
   render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour}; }
+  /// Its mesh before the motion, as its file has it, or the square.
+  const sim::Mesh& mesh() const { return spec_.solid.half_space ? square_ : spec_.solid.mesh; }
+  /// Where its motion has points (p x 3) [m] of it at `time` [s].
+  sim::SurfaceState carried(const Eigen::MatrixX3d& points, double time) const;
   /// At `time` [s], seen from a camera that has come `path` [m].
   sim::SurfaceState at(double time, const Eigen::RowVector3f& path) const;
   /// What of it a picture of `bodies` [m] should show, itself being at `state`: a small collider that is near them
@@ -27,6 +31,7 @@ class DrawnCollider {
   const ColliderSpec& spec_;
   Eigen::MatrixX3d position_;  // [m] (p x 3) before its motion
   sim::Surface surface_;
+  sim::Mesh square_;  // of a plane
 };
 
 /// The box [m] around a surface.

@@ -25,11 +25,8 @@ std::vector<render::DrawnBody> DrawnScene::bodies() const {
 }
 
 std::vector<sim::SurfaceState> DrawnScene::solids_from(const Eigen::RowVector3f& path, const sim::State& state) const {
-  std::vector<sim::SurfaceState> states;
-  for (std::size_t b = 0; b < skin_.size(); ++b) {
-    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
-    states.back().position.rowwise() -= path;
-  }
+  std::vector<sim::SurfaceState> states = skins_at(state);
+  for (sim::SurfaceState& skin : states) skin.position.rowwise() -= path;
   for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
   return states;
 }
@@ -42,6 +39,13 @@ std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) con
   const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
   std::vector<sim::SurfaceState> states = solids_from(path, state);
   if (motes_) states.push_back(motes_->at(state.time, path));
+  return states;
+}
+
+std::vector<sim::SurfaceState> DrawnScene::skins_at(const sim::State& state) const {
+  std::vector<sim::SurfaceState> states;
+  for (std::size_t b = 0; b < skin_.size(); ++b)
+    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
   return states;
 }
 

@@ -25,6 +25,10 @@ class DrawnScene {
   std::vector<render::DrawnBody> solids() const;
   /// Where those are at `state`, in the world [m].
   std::vector<sim::SurfaceState> solid_surfaces(const sim::State& state) const;
+  /// What is drawn of each body, and where all of that is at `state` in the world.
+  const std::vector<sim::Skin>& skins() const { return skin_; }
+  std::vector<sim::SurfaceState> skins_at(const sim::State& state) const;
+  const std::vector<DrawnCollider>& colliders() const { return collider_; }
   /// The box around the bodies and what of the colliders belongs into a picture of them.
   Eigen::AlignedBox3d box(const sim::State& state) const;
 

@@ -46,12 +46,13 @@ struct WrittenArray {
   std::string unit;
 };
 
-/// A geometry cache that the run wrote.
-struct CacheReport {
+/// A geometry cache that was written.
+struct CacheRecord {
   CacheFormat format;
-  std::string_view file;  // within the run's folder
-  long keys = 0;          // frames that it holds
-  std::size_t bytes = 0;
+  std::string name;            // of the body or collider; empty: all of them
+  std::filesystem::path file;  // that a program opens, relative to the run's folder: of a sequence its first
+  long first_frame = 1, frames = 0;
+  std::optional<int> vertices = {};
 };
 
 struct FilmReport {
@@ -69,7 +70,7 @@ struct FilmReport {
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
   int interrupted_by = 0;  // the signal that ended the run early, or 0
   std::optional<std::string> divergence = {};  // the message, when the run diverged
-  std::vector<CacheReport> caches = {};
+  std::vector<CacheRecord> caches = {};
   std::optional<double> filter_response = {};  // of a force filter to the motion's velocities
 };
 

@@ -48,7 +48,8 @@ void GlbRecorder::finish() {
   make_folder(file.parent_path());
   write_file_atomically(file, bytes);
   write_file_atomically(setting_.folder.file(RunFile::glb_script), "window.billow_glb = \"" + base64(bytes) + "\";\n");
-  report_.caches.push_back({CacheFormat::glb, word_of(RunFile::glb), static_cast<long>(keys_.size()), bytes.size()});
+  report_.caches.push_back({CacheFormat::glb, "", std::filesystem::path(word_of(RunFile::glb)), setting_.range.first,
+                            static_cast<long>(keys_.size())});
 }
 
 }  // namespace billow::cli

@@ -25,27 +25,47 @@ bool is_empty_or_missing(const fs::path& folder) {
   return fs::directory_iterator(folder, error) == fs::directory_iterator();
 }
 
+bool has_extension(const fs::path& file, std::initializer_list<std::string_view> extensions) {
+  return std::find(extensions.begin(), extensions.end(), file.extension().string()) != extensions.end();
+}
+
 bool is_frame(const fs::path& file) {
   const std::string stem = file.stem().string();
-  return file.extension() == ".png" && stem.starts_with("frame_") && stem.size() > 6 &&
+  return has_extension(file, {".png", ".obj", ".ply", ".vtp"}) && stem.starts_with("frame_") && stem.size() > 6 &&
          stem.find_first_not_of("0123456789", 6) == std::string::npos;
 }
 
-void remove_all_frames(const fs::path& folder) {
+bool is_cache(const fs::path& file) {
+  return has_extension(file, {".pc2", ".mdd", ".pvd", ".glb"}) || file.filename().string().ends_with(".rest.obj");
+}
+
+// Removes the files in `folder` that are ours, and the folder if nothing else is in it.
+void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
   std::error_code error;
-  for (const render::ViewRow& view : render::views()) {
-    std::vector<fs::path> frames;
-    for (const auto& entry : fs::directory_iterator(folder / view.folder, error))
-      if (entry.is_regular_file(error) && is_frame(entry.path())) frames.push_back(entry.path());
-    for (const fs::path& frame : frames) fs::remove(frame, error);
-    if (fs::is_directory(folder / view.folder, error))
-      fs::remove(folder / view.folder, error);  // only if it is empty now
-  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.is_regular_file(error) && is_ours(entry.path())) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove(file, error);
+  if (fs::is_directory(folder, error)) fs::remove(folder, error);  // only if it is empty now
+}
+
+void remove_caches(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> sequences;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.is_directory(error) && !entry.is_symlink(error)) sequences.push_back(entry.path());
+  for (const fs::path& sequence : sequences) remove_files(sequence, is_frame);
+  remove_files(folder, is_cache);
+}
+
+void remove_all_frames(const fs::path& folder) {
+  for (const render::ViewRow& view : render::views()) remove_files(folder / view.folder, is_frame);
 }
 
 void remove_earlier_run(const fs::path& folder) {
   std::error_code error;
   remove_all_frames(folder);
+  remove_caches(folder / "caches");
   remove_states(folder / StateStore::folder_name);
   for (const std::string_view file : all_words<RunFile>())
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);

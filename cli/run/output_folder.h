@@ -68,6 +68,8 @@ class OutputFolder {
   std::filesystem::path states() const;
   /// The frames of 1 to `total` that are there in every view, ascending.
   std::vector<long> frames_drawn(long total) const;
+  /// The folder of geometry caches; it need not be there.
+  std::filesystem::path caches() const { return folder_ / "caches"; }
   /// True when resuming and the frame is there already.
   bool keeps(render::View view, long frame) const;
 

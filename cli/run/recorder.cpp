@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/run/cache_recorder.h"
 #include "cli/run/glb_recorder.h"
 #include "cli/run/motion_recorder.h"
 #include "cli/run/response_recorder.h"
@@ -22,7 +23,10 @@ std::vector<std::unique_ptr<Recorder>> make_recorders(const RecorderSetting& set
   if (only_frames) return recorders;
   if (scene.spectrum) recorders.push_back(std::make_unique<SpectrumRecorder>(setting, report));
   if (scene.strip) recorders.push_back(std::make_unique<StripRecorder>(setting, report));
-  if (std::find(scene.caches.begin(), scene.caches.end(), CacheFormat::glb) != scene.caches.end())
+  const auto is_model = [](CacheFormat format) { return format == CacheFormat::glb; };
+  if (!std::all_of(scene.caches.begin(), scene.caches.end(), is_model))
+    recorders.push_back(std::make_unique<CacheRecorder>(setting, report));
+  if (std::any_of(scene.caches.begin(), scene.caches.end(), is_model))
     recorders.push_back(std::make_unique<GlbRecorder>(setting, report));
   return recorders;
 }

@@ -41,6 +41,13 @@ std::string images_text(const FilmReport& report) {
   return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
 }
 
+std::string caches_text(const std::vector<CacheRecord>& caches) {
+  std::string text;
+  for (const CacheRecord& cache : caches)
+    text += fmt::format("{}{} ({} frames)", text.empty() ? "" : ", ", cache.file.string(), cache.frames);
+  return text;
+}
+
 Facts facts_of(const Run& run, const FilmReport& report, const Progress& progress) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
@@ -57,6 +64,7 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
                              {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
                                                        scene.duration, report.facts.steps)}});
   if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
+  if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
   facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
                              {"Images", images_text(report)},
                              {"Time taken", time_taken(progress, report)},
@@ -118,7 +126,7 @@ RunPage describe_run(const Run& run, const FilmReport& report, const std::vector
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
-  for (const CacheReport& cache : report.caches)
+  for (const CacheRecord& cache : report.caches)
     if (cache.format == CacheFormat::glb) show_model(page);
   page.facts = facts_of(run, report, progress);
   page.command = run.command;

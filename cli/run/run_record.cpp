@@ -99,11 +99,16 @@ Json frame_record(const FrameRecord& f) {
 }
 
 Json cache_records(const FilmReport& report) {
-  Json list = Json::array();
-  for (const CacheReport& cache : report.caches)
-    list.push_back(
-        {{"format", word_of(cache.format)}, {"file", cache.file}, {"frames", cache.keys}, {"bytes", cache.bytes}});
-  return list;
+  Json json = Json::array();
+  for (const CacheRecord& cache : report.caches) {
+    json.push_back({{"format", word_of(cache.format)},
+                    {"file", cache.file.string()},
+                    {"first_frame", cache.first_frame},
+                    {"frames", cache.frames}});
+    if (!cache.name.empty()) json.back()["name"] = cache.name;
+    if (cache.vertices) json.back()["vertices"] = *cache.vertices;
+  }
+  return json;
 }
 
 // The phases, which follow one another and add up to `wall`, and the stages that share "render".
@@ -175,10 +180,6 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   return json;
 }
 
-void append(AtomicFile& file, std::string_view text) {
-  if (!file.write(text.data(), text.size())) file.fail();
-}
-
 }  // namespace
 
 // The frames go through memory one by one, so that a film's length does not show there.
@@ -187,14 +188,14 @@ void write_finished_record(const std::filesystem::path& file, const Run& run, co
                            const nlohmann::ordered_json& inherited) {
   AtomicFile output(file);
   const std::string head = finished(run, survey, report, progress, inherited).dump(1);
-  append(output, std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
-  append(output, ",\n \"frames\": [");
+  output.append(std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
+  output.append(",\n \"frames\": [");
   const char* separator = "\n  ";
   for (const FrameRecord& frame : report.frames) {
-    append(output, separator + frame_record(frame).dump());
+    output.append(separator + frame_record(frame).dump());
     separator = ",\n  ";
   }
-  append(output, "\n ]\n}\n");
+  output.append("\n ]\n}\n");
   output.commit();
 }
 

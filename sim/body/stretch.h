@@ -13,4 +13,7 @@ struct Stretch {
 };
 Stretch stretch_of(const Structure& structure, const State& state);
 
+/// Of each particle (n): the mean of |l - L|/L over its structural springs; 0 where it has none.
+Eigen::VectorXd strain_of(const Structure& structure, const State& state);
+
 }  // namespace billow::sim

@@ -30,4 +30,9 @@ SurfaceState pose(const Skin& skin, const Body& body, const State& state) {
   return points;
 }
 
+Eigen::VectorXf at_points(const Skin& skin, const Body& body, const Eigen::VectorXd& of_particles) {
+  const Eigen::VectorXf of_body = of_particles.segment(body.first_particle, body.particles).cast<float>();
+  return skin.middle.size() == 0 ? of_body : Eigen::VectorXf(skin.middle * of_body);
+}
+
 }  // namespace billow::sim

@@ -21,4 +21,8 @@ struct Skin {
 /// Where the skin of `body` is at `state`, and its exact velocity.
 SurfaceState pose(const Skin& skin, const Body& body, const State& state);
 
+/// Numbers (N) of all particles at the points (p) of the skin of `body`: each has the mean, by the same weights, of the
+/// particles that its middle is made of.
+Eigen::VectorXf at_points(const Skin& skin, const Body& body, const Eigen::VectorXd& of_particles);
+
 }  // namespace billow::sim

@@ -6,8 +6,12 @@
 namespace billow::sim {
 
 Mesh transformed(const Mesh& mesh, const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d& translation) {
+  const auto move = [&](const Eigen::MatrixX3d& position) -> Eigen::MatrixX3d {
+    return ((scale * position) * rotation.transpose()).rowwise() + translation.transpose();
+  };
   Mesh moved = mesh;
-  moved.position = ((scale * mesh.position) * rotation.transpose()).rowwise() + translation.transpose();
+  moved.position = move(mesh.position);
+  moved.layout.loose = move(mesh.layout.loose);
   return moved;
 }
 

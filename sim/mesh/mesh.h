@@ -7,13 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/mesh/face.h"
+#include "sim/mesh/file_layout.h"
+
 namespace billow::sim {
-
-/// One polygon: three or four corners, counter-clockwise seen from outside; a triangle's last entry is -1.
-using Face = std::array<int, 4>;
-
-/// Number of corners of a face (3 or 4).
-inline int corner_count(const Face& face) { return face[3] < 0 ? 3 : 4; }
 
 /// Polygons as a file lists them: each corner may have its own copy of a position.
 struct PolygonSoup {
@@ -22,6 +19,7 @@ struct PolygonSoup {
   Eigen::MatrixX3f colour;                        //     (r x 3) in [0, 1], or (0 x 3)
   std::vector<Face> face;                         //     (f)     raw vertex indices
   std::map<std::string, std::vector<int>> group;  //     group or material name -> raw vertices, ascending
+  FileLayout layout;                              //     of raw vertices; empty: they are the file's own
 };
 
 /// A mesh whose vertices are distinct positions, with texture coordinates kept per corner.
@@ -32,6 +30,7 @@ struct Mesh {
   std::vector<std::array<Eigen::Vector2f, 4>> uv;  //     (f) one per corner; empty where the file has none
   Eigen::MatrixX3f colour;                         //     (v x 3) in [0, 1], or (0 x 3)
   std::map<std::string, std::vector<int>> group;   //     name -> vertices, ascending
+  FileLayout layout;                               //     of its file; empty where it has none
 
   int vertices() const { return static_cast<int>(position.rows()); }
 };
@@ -42,7 +41,8 @@ struct Mesh {
 /// non-finite coordinate or a mesh with no face.
 Mesh weld(const PolygonSoup& soup);
 
-/// The mesh moved: position -> scale * R * position + translation. Shapes and order are kept.
+/// The mesh moved, its file's loose vertices too: position -> scale * R * position + translation. Shapes and order are
+/// kept.
 Mesh transformed(const Mesh& mesh, const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d& translation);
 
 /// Mean length [m] of the mesh's distinct edges.

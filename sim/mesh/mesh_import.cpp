@@ -58,16 +58,19 @@ std::string encoded_soup(const fs::path& file, const ImportLimits& limits) {
   check_claims(file, limits);
   if (lower_extension(file) != ".obj") return encode_soup(read_with_assimp(file, limits));
   const ObjVertices vertices = scan_obj(file);
+  if (vertices.position.size() > static_cast<std::size_t>(limits.max_vertices))
+    throw InputError(fmt::format("it has more than {} vertices; use a coarser mesh", limits.max_vertices));
   return encode_soup(in_file_order(read_with_assimp(file, limits), vertices));
 }
 
 ProcessLimits process_limits(const fs::path& file, const ImportLimits& limits) {
-  constexpr std::size_t bytes_per_vertex = 24 + 8 + 12 + 16;  // position, uv, colour, a few groups
+  constexpr std::size_t bytes_per_vertex = 24 + 8 + 12 + 16 + 40;  // position, uv, colour, a few groups; the layout
+  constexpr std::size_t bytes_per_face = 3 * sizeof(Face);         // two of them of the layout
   const std::uintmax_t cpu_seconds = 1 + fs::file_size(file) / bytes_per_cpu_second;
   return {.memory_bytes = limits.memory_bytes,
           .cpu_seconds = static_cast<int>(std::min<std::uintmax_t>(cpu_seconds, limits.cpu_seconds)),
           .wall_seconds = limits.wall_seconds,
-          .reply_bytes = bytes_per_vertex * limits.max_vertices + sizeof(Face) * limits.max_faces};
+          .reply_bytes = bytes_per_vertex * limits.max_vertices + bytes_per_face * limits.max_faces};
 }
 
 }  // namespace

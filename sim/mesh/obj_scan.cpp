@@ -44,7 +44,7 @@ class Scanner {
     const std::vector<std::string_view>& words = words_;
     if (words.empty()) return;
     if (words[0] == "v") add_vertex(words);
-    if (words[0] == "vt") check_texture(words);
+    if (words[0] == "vt") add_texture(words);
     if (words[0] == "f") add_face(words);
     if (words[0] == "g" || words[0] == "o" || words[0] == "usemtl") take_names(words);
   }
@@ -55,6 +55,7 @@ class Scanner {
       fail(highest_line_,
            fmt::format("face uses vertex {}, but the file has {}", highest_ + 1, found_.position.size()));
     for (auto& [name, members] : found_.group) sort_and_unite(members);
+    forget_bad_texture();
   }
 
  private:
@@ -84,8 +85,13 @@ class Scanner {
     found_.position.emplace_back(value[0] / w, value[1] / w, value[2] / w);
   }
 
-  void check_texture(const std::vector<std::string_view>& words) const {
-    for (std::size_t k = 1; k < words.size(); ++k) number(words[k]);
+  void add_texture(const std::vector<std::string_view>& words) {
+    float value[2] = {0.0f, 0.0f};
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      const double given = number(words[k]);
+      if (k <= 2) value[k - 1] = static_cast<float>(given);
+    }
+    found_.uv.emplace_back(value[0], value[1]);
   }
 
   // The vertex number in front of a corner's first slash, counted from 0; -1 in the file is the latest vertex.
@@ -99,16 +105,53 @@ class Scanner {
     return vertex;
   }
 
+  // The texture coordinate after a corner's first slash, counted from 0; -1: none that can be.
+  int corner_texture(std::string_view corner) const {
+    const std::size_t slash = corner.find('/');
+    if (slash == corner.npos) return -1;
+    int index = 0;
+    const auto [end, error] = std::from_chars(corner.data() + slash + 1, corner.data() + corner.size(), index);
+    if (error != std::errc()) return -1;
+    return std::max(-1, index > 0 ? index - 1 : static_cast<int>(found_.uv.size()) + index);
+  }
+
+  // As assimp_reader cuts polygons.
+  void add_polygon(const std::vector<int>& vertex, const std::vector<int>& texture) {
+    const std::size_t corners = vertex.size();
+    if (corners == 4) {
+      found_.face.push_back({vertex[0], vertex[1], vertex[2], vertex[3]});
+      found_.uv_corner.push_back({texture[0], texture[1], texture[2], texture[3]});
+    }
+    for (std::size_t k = 2; corners != 4 && k < corners; ++k) {
+      found_.face.push_back({vertex[0], vertex[k - 1], vertex[k], -1});
+      found_.uv_corner.push_back({texture[0], texture[k - 1], texture[k], -1});
+    }
+  }
+
+  // A face has a texture coordinate that exists at every corner, or none. They, too, may come later.
+  void forget_bad_texture() {
+    const int count = static_cast<int>(found_.uv.size());
+    for (Face& texture : found_.uv_corner) {
+      const int corners = corner_count(found_.face[&texture - found_.uv_corner.data()]);
+      const auto bad = [&](int t) { return t < 0 || t >= count; };
+      if (std::any_of(texture.begin(), texture.begin() + corners, bad)) texture.fill(-1);
+    }
+  }
+
   void add_face(const std::vector<std::string_view>& words) {
     if (joined_.empty()) find_joined();
+    std::vector<int> corner, texture;
     for (std::size_t k = 1; k < words.size(); ++k) {
       const long vertex = corner_vertex(words[k]);
+      corner.push_back(static_cast<int>(vertex));
+      texture.push_back(corner_texture(words[k]));
       if (vertex > highest_) {
         highest_ = vertex;
         highest_line_ = line_;
       }
       for (std::vector<int>* members : joined_) members->push_back(static_cast<int>(vertex));
     }
+    add_polygon(corner, texture);
   }
 
   void take_names(const std::vector<std::string_view>& words) {
@@ -182,6 +225,25 @@ std::vector<int> all_copies(const std::vector<int>& vertices, const std::vector<
   return rows;
 }
 
+// The layout that the file has, of raw vertices: a vertex becomes the first of its copies.
+FileLayout layout_of(const ObjVertices& vertices, const std::vector<int>& number_of_vertex,
+                     const std::vector<std::vector<int>>& copies) {
+  FileLayout layout;
+  std::vector<Eigen::Vector3d> loose;
+  for (std::size_t v = 0; v < vertices.position.size(); ++v) {
+    const std::vector<int>& raw = copies[number_of_vertex[v]];
+    layout.vertex.push_back(raw.empty() ? -1 : raw.front());
+    if (raw.empty()) loose.push_back(vertices.position[v]);
+  }
+  layout.loose.resize(static_cast<Eigen::Index>(loose.size()), 3);
+  for (std::size_t k = 0; k < loose.size(); ++k) layout.loose.row(static_cast<Eigen::Index>(k)) = loose[k];
+  layout.face = vertices.face;
+  layout.uv.resize(static_cast<Eigen::Index>(vertices.uv.size()), 2);
+  for (std::size_t k = 0; k < vertices.uv.size(); ++k) layout.uv.row(static_cast<Eigen::Index>(k)) = vertices.uv[k];
+  if (!vertices.uv.empty()) layout.uv_corner = vertices.uv_corner;
+  return layout;
+}
+
 }  // namespace
 
 ObjVertices scan_obj(const std::filesystem::path& file) {
@@ -213,6 +275,7 @@ PolygonSoup in_file_order(const PolygonSoup& soup, const ObjVertices& vertices) 
     if (const int number = number_of_raw[order[k]]; number >= 0) copies[number].push_back(static_cast<int>(k));
   for (const auto& [name, members] : vertices.group)
     ordered.group[name] = all_copies(members, number_of_vertex, copies);
+  ordered.layout = layout_of(vertices, number_of_vertex, copies);
   return ordered;
 }
 

@@ -13,6 +13,9 @@ namespace billow::sim {
 /// An OBJ file's vertices as its `v` lines number them. Users pin vertices by these numbers.
 struct ObjVertices {
   std::vector<Eigen::Vector3d> position;  // (v)
+  std::vector<Eigen::Vector2f> uv;        // (c) the `vt` lines
+  std::vector<Face> face;                 // (f) of those vertices, in the file's order; larger polygons as fans
+  std::vector<Face> uv_corner;            // (f) `vt` lines at the corners, counted from 0; -1 at a face without
   std::map<std::string, std::vector<int>>
       group;  // names of `g`, `o` and `usemtl` -> vertices of their faces, ascending
 };
@@ -22,7 +25,7 @@ struct ObjVertices {
 ObjVertices scan_obj(const std::filesystem::path& file);
 
 /// `soup`, which assimp made of the same file with a copy of a vertex for every face corner, with its raw vertices in
-/// the file's order and the file's groups in place of assimp's.
+/// the file's order, the file's groups in place of assimp's, and the layout of the file.
 PolygonSoup in_file_order(const PolygonSoup& soup, const ObjVertices& vertices);
 
 }  // namespace billow::sim

@@ -26,6 +26,12 @@ void put_rows(std::string& bytes, const Matrix& matrix) {
   put(bytes, matrix.data(), static_cast<std::size_t>(matrix.size()));
 }
 
+template <typename T>
+void put_list(std::string& bytes, const std::vector<T>& list) {
+  put_count(bytes, list.size());
+  put(bytes, list.data(), list.size());
+}
+
 // Takes values off the front of the bytes and never reads past their end.
 class Reader {
  public:
@@ -54,6 +60,12 @@ class Reader {
     take(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
+  template <typename T>
+  void take_list(std::vector<T>& list) {
+    list.resize(take_count(sizeof(T)));
+    take(list.data(), list.size());
+  }
+
   void expect_end() const {
     if (!rest_.empty()) fail();
   }
@@ -69,16 +81,48 @@ void take_groups(Reader& reader, PolygonSoup& soup) {
   for (std::size_t g = 0; g < groups; ++g) {
     std::string name(reader.take_count(1), '\0');
     reader.take(name.data(), name.size());
-    std::vector<int> members(reader.take_count(sizeof(int)));
-    reader.take(members.data(), members.size());
+    std::vector<int> members;
+    reader.take_list(members);
     soup.group.emplace(std::move(name), std::move(members));
   }
 }
 
+void put_layout(std::string& bytes, const FileLayout& layout) {
+  put_list(bytes, layout.vertex);
+  put_rows(bytes, layout.loose);
+  put_list(bytes, layout.face);
+  put_rows(bytes, layout.uv);
+  put_list(bytes, layout.uv_corner);
+}
+
+void take_layout(Reader& reader, FileLayout& layout) {
+  reader.take_list(layout.vertex);
+  reader.take_rows(layout.loose);
+  reader.take_list(layout.face);
+  reader.take_rows(layout.uv);
+  reader.take_list(layout.uv_corner);
+}
+
+bool all_within(const std::vector<Face>& faces, Eigen::Index lowest, Eigen::Index end) {
+  const auto within = [&](int index) { return index >= lowest && index < end; };
+  return std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+    return std::all_of(face.begin(), face.begin() + 3, within) && (face[3] == -1 || within(face[3]));
+  });
+}
+
+void check_layout(const FileLayout& layout, Eigen::Index raw) {
+  const auto valid = [&](int index) { return index >= -1 && index < raw; };
+  if (!std::all_of(layout.vertex.begin(), layout.vertex.end(), valid)) Reader::fail();
+  if (std::count(layout.vertex.begin(), layout.vertex.end(), -1) != layout.loose.rows()) Reader::fail();
+  if (!all_within(layout.face, 0, layout.vertices())) Reader::fail();
+  if (!layout.uv_corner.empty() && layout.uv_corner.size() != layout.face.size()) Reader::fail();
+  if (!all_within(layout.uv_corner, -1, layout.uv.rows())) Reader::fail();
+}
+
 void check_indices(const PolygonSoup& soup) {
   const auto valid = [raw = soup.position.rows()](int index) { return index >= 0 && index < raw; };
-  for (const Face& face : soup.face)
-    if (!std::all_of(face.begin(), face.begin() + 3, valid) || (face[3] != -1 && !valid(face[3]))) Reader::fail();
+  if (!all_within(soup.face, 0, soup.position.rows())) Reader::fail();
+  check_layout(soup.layout, soup.position.rows());
   for (const auto& [name, members] : soup.group)
     if (!std::all_of(members.begin(), members.end(), valid)) Reader::fail();
 }
@@ -96,15 +140,14 @@ std::string encode_soup(const PolygonSoup& soup) {
   put_rows(bytes, soup.position);
   put_rows(bytes, soup.uv);
   put_rows(bytes, soup.colour);
-  put_count(bytes, soup.face.size());
-  put(bytes, soup.face.data(), soup.face.size());
+  put_list(bytes, soup.face);
   put_count(bytes, soup.group.size());
   for (const auto& [name, members] : soup.group) {
     put_count(bytes, name.size());
     put(bytes, name.data(), name.size());
-    put_count(bytes, members.size());
-    put(bytes, members.data(), members.size());
+    put_list(bytes, members);
   }
+  put_layout(bytes, soup.layout);
   return bytes;
 }
 
@@ -114,9 +157,9 @@ PolygonSoup decode_soup(std::string_view bytes) {
   reader.take_rows(soup.position);
   reader.take_rows(soup.uv);
   reader.take_rows(soup.colour);
-  soup.face.resize(reader.take_count(sizeof(Face)));
-  reader.take(soup.face.data(), soup.face.size());
+  reader.take_list(soup.face);
   take_groups(reader, soup);
+  take_layout(reader, soup.layout);
   reader.expect_end();
   check_optional_rows(soup);
   check_indices(soup);

@@ -2,6 +2,7 @@
 // coordinate or normal are one particle, or a cloth falls apart along its seams.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "base/error.h"
@@ -97,6 +98,35 @@ void fill_vertices(const PolygonSoup& soup, const std::vector<int>& vertex_of_ra
   }
 }
 
+// The layout of raw vertices that are the file's own.
+FileLayout raw_layout(const PolygonSoup& soup) {
+  FileLayout layout;
+  layout.vertex.resize(soup.position.rows());
+  std::iota(layout.vertex.begin(), layout.vertex.end(), 0);
+  layout.face = soup.face;
+  layout.uv = soup.uv;
+  if (soup.uv.rows() > 0) layout.uv_corner = soup.face;
+  return layout;
+}
+
+// The soup's layout, of the mesh's vertices.
+FileLayout welded_layout(const PolygonSoup& soup, const std::vector<int>& vertex_of_raw) {
+  FileLayout layout = soup.layout.empty() ? raw_layout(soup) : soup.layout;
+  std::vector<Eigen::RowVector3d> loose;
+  Eigen::Index next_loose = 0;
+  for (int& vertex : layout.vertex) {
+    const int raw = vertex;
+    vertex = raw < 0 ? -1 : vertex_of_raw[raw];
+    if (raw < 0)
+      loose.push_back(soup.layout.loose.row(next_loose++));
+    else if (vertex < 0)
+      loose.push_back(soup.position.row(raw));
+  }
+  layout.loose.resize(static_cast<Eigen::Index>(loose.size()), 3);
+  for (std::size_t k = 0; k < loose.size(); ++k) layout.loose.row(static_cast<Eigen::Index>(k)) = loose[k];
+  return layout;
+}
+
 }  // namespace
 
 Mesh weld(const PolygonSoup& soup) {
@@ -107,6 +137,7 @@ Mesh weld(const PolygonSoup& soup) {
   const std::vector<int> vertex = drop_unused(static_cast<int>(soup.position.rows()), mesh);
   for (int& n : number) n = vertex[n];
   fill_vertices(soup, number, mesh);
+  mesh.layout = welded_layout(soup, number);
   return mesh;
 }
 

@@ -15,6 +15,11 @@ PolygonSoup sample() {
   PolygonSoup soup = test::soup_of(test::quad_grid(3, 3));
   soup.colour = Eigen::MatrixX3f::Constant(soup.position.rows(), 3, 0.25f);
   soup.group = {{"hem", {0, 3}}, {"", {1}}};
+  soup.layout.vertex = {1, -1, 0, 4};
+  soup.layout.loose = Eigen::MatrixX3d::Constant(1, 3, 0.5);
+  soup.layout.face = {{0, 2, 3, -1}, {0, 1, 2, 3}};
+  soup.layout.uv = Eigen::MatrixX2f::Constant(2, 2, 0.75);
+  soup.layout.uv_corner = {{1, 0, 1, -1}, {-1, -1, -1, -1}};
   return soup;
 }
 
@@ -25,6 +30,11 @@ TEST(SoupCodec, GivesBackWhatItWasGiven) {
   EXPECT_EQ(copy.colour, soup.colour);
   EXPECT_EQ(copy.face, soup.face);
   EXPECT_EQ(copy.group, soup.group);
+  EXPECT_EQ(copy.layout.vertex, soup.layout.vertex);
+  EXPECT_EQ(copy.layout.loose, soup.layout.loose);
+  EXPECT_EQ(copy.layout.face, soup.layout.face);
+  EXPECT_EQ(copy.layout.uv, soup.layout.uv);
+  EXPECT_EQ(copy.layout.uv_corner, soup.layout.uv_corner);
 }
 
 TEST(SoupCodec, NoticesEveryTruncation) {
