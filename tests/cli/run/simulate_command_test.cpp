@@ -53,7 +53,7 @@ std::string falling_scene(double duration) {
       "      transform: {{scale: 0.09, rotate: [-90, 0, 0]}}\n"
       "      mass: 0.05\n"
       "      strain_limit: 0.1\n"
-      "      pins: [{{corner: top_left, until: 0.3}}, {{corner: top_right, until: 1.8}}]\n"
+      "      pins: [{{corner: top_left, until: 0.3}}, {{corner: top_right, until: 1.5}}]\n"
       "colliders: [{{name: ball, sphere: {{centre: [0.3, -0.4, 0], radius: 0.3}}}}]\n"
       "wind: {{velocity: [0.5, 0, 1], gusts: {{strength: 0.5, period: 0.5}}}}\n"
       "render: {{size: [96, 64], fps: 25, samples: 1}}\n"
