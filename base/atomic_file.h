@@ -20,6 +20,8 @@ class AtomicFile {
 
   /// Appends `size` bytes; false, with errno set, when they cannot all be written.
   bool write(const void* bytes, std::size_t size) noexcept;
+  /// Where the bytes are until commit(), for a program that writes them itself, instead of write().
+  const std::filesystem::path& temporary() const { return temporary_; }
   /// Flushes, closes and renames.
   void commit();
   /// Throws OutputError for `target` with the reason that errno holds.

@@ -25,6 +25,9 @@ void check_output_folder(const std::filesystem::path& folder, Existing existing,
 enum class RunFile { strip, velocity_image, spectrum, spectrum_table, record, page };
 Words<RunFile> words(RunFile);
 
+/// The file of a frame in a run's folder.
+std::filesystem::path frame_of(const std::filesystem::path& folder, render::View view, long frame);
+
 /// DIR of `billow render`: a folder of frames for each view, and the run's files.
 class OutputFolder {
  public:

@@ -17,10 +17,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json begun(const Scene& scene, const std::string& command, const char* status) {
+  Json views = Json::array();
+  for (const render::View view : scene.render.views) views.push_back(render::name(view));
   return {{"billow", version()},
           {"status", status},
           {"command", command},
-          {"scene", {{"file", scene.file.string()}, {"hash", scene.hash}, {"effective", scene.effective}}}};
+          {"scene", {{"file", scene.file.string()}, {"hash", scene.hash}, {"effective", scene.effective}}},
+          {"fps", scene.render.fps},
+          {"size", {scene.render.width, scene.render.height}},
+          {"views", views}};
 }
 
 Json estimate(const sim::EigenvalueEstimate& e) {
