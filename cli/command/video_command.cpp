@@ -73,7 +73,7 @@ std::string list_of_files(const FinishedRun& run, const std::vector<render::View
   std::string list = "ffconcat version 1.0\n";
   for (const auto& [frame, time] : run.frames)
     for (const render::View view : views)
-      list += "file " + quoted(fs::absolute(frame_file(run, view, frame)).string()) + "\n";
+      list += "file " + quoted("file:" + fs::absolute(frame_file(run, view, frame)).string()) + "\n";
   return list;
 }
 
