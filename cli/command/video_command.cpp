@@ -61,6 +61,9 @@ const FilmFormat& format_of(const fs::path& file) {
   throw InputError(fmt::format("-o {}: a film's name ends in {}", file.string(), fmt::join(known, ", ")));
 }
 
+// A file, for ffmpeg: without the word a colon in its name would make it an address.
+std::string named(const fs::path& file) { return "file:" + file.string(); }
+
 // A word of a list of files for ffmpeg's concat demuxer.
 std::string quoted(const std::string& text) {
   std::string out = "'";
@@ -73,7 +76,7 @@ std::string list_of_files(const FinishedRun& run, const std::vector<render::View
   std::string list = "ffconcat version 1.0\n";
   for (const auto& [frame, time] : run.frames)
     for (const render::View view : views)
-      list += "file " + quoted("file:" + fs::absolute(frame_file(run, view, frame)).string()) + "\n";
+      list += "file " + quoted(named(fs::absolute(frame_file(run, view, frame)))) + "\n";
   return list;
 }
 
@@ -120,10 +123,10 @@ class FilmMaker {
     if (!format.paletted) return encode(format, {"-vf", side_by_side_ + std::string(format.filter)}, temporary);
     const AtomicFile palette(file_.string() + ".palette");  // never commited: it vanishes with this function
     if (!ffmpeg("palette", {"-vf", side_by_side_ + "palettegen", "-f", "image2", "-c:v", "png", "-update", "1",
-                            palette.temporary().string()}))
+                            named(palette.temporary())}))
       return false;
     return encode(format,
-                  {"-f", "png_pipe", "-i", palette.temporary().string(), "-lavfi",
+                  {"-f", "png_pipe", "-i", named(palette.temporary()), "-lavfi",
                    "[0:v]" + side_by_side_ + "null[film];[film][1:v]paletteuse=diff_mode=rectangle"},
                   temporary);
   }
@@ -131,7 +134,7 @@ class FilmMaker {
  private:
   bool encode(const FilmFormat& format, Arguments words, const fs::path& temporary) {
     words.insert(words.end(), format.encoding.begin(), format.encoding.end());
-    words.insert(words.end(), {"-f", std::string(format.muxer), temporary.string()});
+    words.insert(words.end(), {"-f", std::string(format.muxer), named(temporary)});
     return ffmpeg("film", words);
   }
 
