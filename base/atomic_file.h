@@ -23,6 +23,8 @@ class AtomicFile {
   bool write(const void* bytes, std::size_t size) noexcept;
   /// Appends them, or throws.
   void append(std::string_view bytes);
+  /// Where the bytes are until commit(), for a program that writes them itself, instead of write().
+  const std::filesystem::path& temporary() const { return temporary_; }
   /// Flushes, closes and renames.
   void commit();
   /// Throws OutputError for `target` with the reason that errno holds.

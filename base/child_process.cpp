@@ -1,13 +1,15 @@
-// posix_spawn, with files in memory as its stdin and stderr, so that neither side can block on a pipe.
+// posix_spawn, with files in memory as its stdin, stdout and stderr, so that neither side can block on a pipe.
 #include "base/child_process.h"
 
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -47,16 +49,30 @@ class MemoryFile {
     return text;
   }
 
+  std::string tail(std::size_t most) const {
+    struct stat status = {};
+    fstat(descriptor_, &status);
+    const auto length = std::min<off_t>(status.st_size, static_cast<off_t>(most));
+    std::string text(static_cast<std::size_t>(length), '\0');
+    const ssize_t size = pread(descriptor_, text.data(), text.size(), status.st_size - length);
+    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return text;
+  }
+
  private:
   int descriptor_;
 };
 
 // The child's process number; 0 when the program does not exist.
-pid_t spawn(const std::vector<std::string>& words, const MemoryFile& input, const MemoryFile& errors) {
+pid_t spawn(const std::vector<std::string>& words, const MemoryFile& input, const MemoryFile* output,
+            const MemoryFile& errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (output)
+    posix_spawn_file_actions_adddup2(&actions, output->descriptor(), STDOUT_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -69,34 +85,44 @@ pid_t spawn(const std::vector<std::string>& words, const MemoryFile& input, cons
   return child;
 }
 
-// Its wait status; nothing when it had to be ended.
-bool wait_for(pid_t child, double seconds, int& status) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+/// Why a program is ended before it ends itself.
+enum class Ending { none, time, watcher };
+
+// Waits for its end, or ends it. Looks 500 times a second at a short program, 20 times at one that is watched.
+Ending wait_for(pid_t child, double seconds, const std::function<bool()>& goes_on, int& status) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::chrono::milliseconds pause(goes_on ? 50 : 2);
   while (waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
+    const bool late = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds;
+    if (late || (goes_on && !goes_on())) {
       kill(child, SIGKILL);
       waitpid(child, &status, 0);
-      return false;
+      return late ? Ending::time : Ending::watcher;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(pause);
   }
-  return true;
+  return Ending::none;
 }
 
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds) {
-  constexpr std::size_t most_errors = 64 << 10;
-  MemoryFile in, errors;
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds,
+                          const ProgramWatcher& watcher) {
+  constexpr std::size_t most_errors = 64 << 10, most_output = 4 << 10;
+  MemoryFile in, out, errors;
   in.fill(input);
   ProgramResult result;
-  const pid_t child = spawn(words, in, errors);
+  const pid_t child = spawn(words, in, watcher ? &out : nullptr, errors);
   if (child == 0) {
     result.found = false;
     return result;
   }
   int status = 0;
-  result.timed_out = !wait_for(child, seconds, status);
+  std::function<bool()> goes_on;
+  if (watcher) goes_on = [&] { return watcher(out.tail(most_output)); };
+  const Ending ending = wait_for(child, seconds, goes_on, status);
+  result.timed_out = ending == Ending::time;
+  result.stopped = ending == Ending::watcher;
   result.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   result.errors = errors.text(most_errors);
   return result;

@@ -1,7 +1,9 @@
 // Another program, run without a shell.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace billow {
@@ -9,12 +11,18 @@ namespace billow {
 struct ProgramResult {
   bool found = true;
   bool timed_out = false;
-  int status = 0;      // exit status, or 128 and the signal that ended it
-  std::string errors;  // what it wrote to stderr, at most 64 KiB
+  bool stopped = false;  // by its watcher
+  int status = 0;        // exit status, or 128 and the signal that ended it
+  std::string errors;    // what it wrote to stderr, at most 64 KiB
 };
 
-/// Runs `words[0]`, looked up in PATH, with `input` at its stdin and its stdout discarded; ends it after `seconds`.
-/// Throws std::system_error when no process can be started at all.
-ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds);
+/// Is shown the end of what a program has written to stdout until now, at most 4 KiB, many times a second. False ends
+/// the program.
+using ProgramWatcher = std::function<bool(std::string_view output)>;
+
+/// Runs `words[0]`, looked up in PATH, with `input` at its stdin; ends it after `seconds`, which may be infinite, or
+/// when `watcher`, if there is one, says so. Throws std::system_error when no process can be started at all.
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds,
+                          const ProgramWatcher& watcher = {});
 
 }  // namespace billow

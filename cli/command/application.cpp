@@ -45,6 +45,8 @@ struct Request {
   FilterCommandOptions filter;
   CompareOptions compare;
   StudyOptions study;
+  VideoOptions video;
+  SheetOptions sheet;
   std::vector<std::string> overrides;
   std::string frames, caches;
   bool overwrite = false, resume = false;
@@ -56,6 +58,16 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
   command.add_option("-D", request.overrides, "Set a scene value: -D solver.step=0.001 (repeatable)")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_progress(CLI::App& command, ProgressStyle& style) {
+  static const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::automatic},
+                                                              {"plain", ProgressStyle::plain},
+                                                              {"json", ProgressStyle::json},
+                                                              {"none", ProgressStyle::none}};
+  command.add_option("--progress", style, "auto, plain, json or none")
+      ->transform(CLI::CheckedTransformer(styles))
+      ->type_name("STYLE");
 }
 
 // What running a scene takes, drawn or not.
@@ -71,13 +83,7 @@ void add_run_options(CLI::App& c, Request& r) {
   c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
-  static const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::automatic},
-                                                              {"plain", ProgressStyle::plain},
-                                                              {"json", ProgressStyle::json},
-                                                              {"none", ProgressStyle::none}};
-  c.add_option("--progress", r.render.progress, "auto, plain, json or none")
-      ->transform(CLI::CheckedTransformer(styles))
-      ->type_name("STYLE");
+  add_progress(c, r.render.progress);
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
@@ -174,6 +180,41 @@ void add_study(CLI::App& app, Request& r) {
   c.final_callback([&r] { r.command = [&r] { return study_command(r.study); }; });
 }
 
+// Of what is made of a run's frames.
+template <class Options>
+void add_run_options(CLI::App& command, Options& options, const std::string& default_name) {
+  command.add_option("DIR", options.folder, "Folder of a run")->required();
+  command.add_option("--view", options.views, "View, or several side by side: textured,velocity (default: the first)")
+      ->type_name("VIEWS");
+  command
+      .add_option("-o,--output", options.output,
+                  fmt::format("File to write (default: in DIR, the view's name and {})", default_name))
+      ->type_name("FILE");
+  command.add_flag("--overwrite", options.overwrite, "Replace the file");
+}
+
+void add_video(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("video", "Make a film of a run's frames: .mp4, .webm, .gif or .apng (by ffmpeg)");
+  add_run_options(c, r.video, ".mp4");
+  c.add_option("--fps", r.video.fps, "Frames a second (default: the run's)")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->type_name("N");
+  add_progress(c, r.video.progress);
+  c.final_callback([&r] { r.command = [&r] { return video_command(r.video); }; });
+}
+
+void add_sheet(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("sheet", "Show frames of a run side by side on one page, with their times");
+  add_run_options(c, r.sheet, "_sheet.png");
+  c.add_option("-n,--count", r.sheet.count, "Frames, evenly chosen (default: 12)")
+      ->check(CLI::Range(1, 400))
+      ->type_name("N");
+  c.add_option("--columns", r.sheet.columns, "Frames a row (default: about as many as rows)")
+      ->check(CLI::Range(1, 400))
+      ->type_name("N");
+  c.final_callback([&r] { r.command = [&r] { return sheet_command(r.sheet); }; });
+}
+
 void add_commands(CLI::App& app, Request& r) {
   app.set_version_flag("--version", fmt::format("billow {}", version()));
   app.require_subcommand(1);
@@ -187,6 +228,8 @@ void add_commands(CLI::App& app, Request& r) {
   add_filter(app, r);
   add_study(app, r);
   add_compare(app, r);
+  add_video(app, r);
+  add_sheet(app, r);
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
     r.command = doctor_command;
   });

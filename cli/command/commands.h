@@ -53,6 +53,26 @@ struct StudyOptions {
 };
 int study_command(const StudyOptions& options);
 
+struct VideoOptions {
+  std::filesystem::path folder;  // of a run
+  std::string views;             // side by side, comma-separated; empty: the run's first
+  std::filesystem::path output;  // empty: in the folder, named by the views
+  double fps = 0.0;              // 0: the run's
+  bool overwrite = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+int video_command(const VideoOptions& options);
+
+struct SheetOptions {
+  std::filesystem::path folder;  // of a run
+  std::string views;             // comma-separated; empty: the run's first
+  std::filesystem::path output;  // empty: in the folder, named by the views
+  int count = 12;                // frames
+  int columns = 0;               // frames a row; 0: about as many as there are rows
+  bool overwrite = false;
+};
+int sheet_command(const SheetOptions& options);
+
 int doctor_command();
 
 }  // namespace billow::cli

@@ -145,9 +145,11 @@ void OutputFolder::join_run() {
   for (const render::View view : views_) make_folder(folder_ / render::folder(view));
 }
 
-fs::path OutputFolder::frame(render::View view, long frame) const {
-  return folder_ / render::folder(view) / fmt::format("frame_{:04}.png", frame);
+fs::path frame_of(const fs::path& folder, render::View view, long frame) {
+  return folder / render::folder(view) / fmt::format("frame_{:04}.png", frame);
 }
+
+fs::path OutputFolder::frame(render::View view, long frame) const { return frame_of(folder_, view, frame); }
 
 fs::path OutputFolder::states() const { return folder_ / StateStore::folder_name; }
 

@@ -44,6 +44,9 @@ enum class RunFile {
 };
 Words<RunFile> words(RunFile);
 
+/// The file of a frame in a run's folder.
+std::filesystem::path frame_of(const std::filesystem::path& folder, render::View view, long frame);
+
 /// DIR of `billow render`: a folder of frames for each view, and the run's files.
 class OutputFolder {
  public:

@@ -165,9 +165,11 @@ class SceneRun {
     if (draws_stored(options_)) {
       page.listed = folder_.frames_drawn(frame_count(run_.scene));
       inherited = made_elsewhere(earlier_record(folder_.path()));
+      inherited["drawn"] = page.listed;
       page.strip_columns = inherited.value("strip_columns", 0);
       if (std::error_code error; std::filesystem::is_regular_file(folder_.file(RunFile::glb), error)) show_model(page);
     } else {
+      if (options_.simulate_only) inherited["views"] = nlohmann::ordered_json::array(), page.views.clear();
       page.listed = range_of(options_, run_.scene).listed;
     }
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));

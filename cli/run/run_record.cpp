@@ -17,6 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json begun(const Scene& scene, const std::string& command, const char* status) {
+  Json views = Json::array();
+  for (const render::View view : scene.render.views) views.push_back(render::name(view));
   return {{"billow", version()},
           {"status", status},
           {"command", command},
@@ -24,7 +26,10 @@ Json begun(const Scene& scene, const std::string& command, const char* status) {
            {{"file", scene.file.string()},
             {"hash", scene.hash},
             {"timeless_hash", scene.timeless_hash},
-            {"effective", scene.effective}}}};
+            {"effective", scene.effective}}},
+          {"fps", scene.render.fps},
+          {"size", {scene.render.width, scene.render.height}},
+          {"views", views}};
 }
 
 Json estimate(const sim::EigenvalueEstimate& e) {

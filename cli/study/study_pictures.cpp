@@ -7,10 +7,10 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.h"
+#include "cli/run/finished_run.h"
 #include "cli/text/number_text.h"
 #include "render/image/png.h"
 #include "render/paper/plot.h"
@@ -58,23 +58,7 @@ std::vector<Shown> rendered_runs(const StudyContents& contents, const PictureSpe
   return shown;
 }
 
-nlohmann::json record_of_run(const Shown& run) {
-  std::ifstream file(run.film / "run.json");
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object())
-    throw OutputError(
-        fmt::format("{} is missing or damaged; run the study with --overwrite", (run.film / "run.json").string()));
-  return json;
-}
-
-/// The rendered frames of a run and their times.
-std::vector<std::pair<long, double>> frames_of(const Shown& run) {
-  std::vector<std::pair<long, double>> frames;
-  const nlohmann::json record = record_of_run(run);
-  for (const auto& frame : record.at("frames"))
-    frames.emplace_back(frame.at("frame").get<long>(), frame.at("time").get<double>());
-  return frames;
-}
+std::vector<std::pair<long, double>> frames_of(const Shown& run) { return read_finished_run(run.film).frames; }
 
 // The frame nearest to `time`; nothing when the run ended before.
 std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long, double>>& frames, double time) {
@@ -103,7 +87,7 @@ std::string lettered(std::size_t index, const std::string& label) {
 double strip_duration(const Shown& run) {
   const double duration = run.result->value("duration").value_or(0.0);
   if (run.result->status == RunStatus::done) return duration;
-  return std::min(duration, record_of_run(run).at("solver").at("simulated_time").get<double>());
+  return std::min(duration, read_finished_run(run.film).simulated_time);
 }
 
 // One strip above the other on one time axis; below them the first run's frames, each beginning at its time.
