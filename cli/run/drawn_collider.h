@@ -16,7 +16,7 @@ class DrawnCollider {
   /// start, its texture once over every square metre.
   DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies);
 
-  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour}; }
+  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour, spec_.solid.name}; }
   /// At `time` [s], seen from a camera that has come `path` [m].
   sim::SurfaceState at(double time, const Eigen::RowVector3f& path) const;
   /// What of it a picture of `bodies` [m] should show, itself being at `state`: a small collider that is near them

@@ -1,9 +1,19 @@
 // State -> surfaces.
 #include "cli/run/drawn_scene.h"
 
-namespace billow::cli {
+#include <algorithm>
 
-DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation) : scene_(scene), simulation_(simulation) {
+namespace billow::cli {
+namespace {
+
+bool shows_strain(const std::vector<render::View>& views) {
+  return std::find(views.begin(), views.end(), render::View::data) != views.end();
+}
+
+}  // namespace
+
+DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation)
+    : scene_(scene), simulation_(simulation), wants_strain_(shows_strain(scene.render.views)) {
   for (const BodySpec& body : scene.bodies) skin_.push_back(skin_of(body));
   const Eigen::AlignedBox3d start = box(simulation.initial_state());
   for (const ColliderSpec& collider : scene.colliders) collider_.emplace_back(collider, start);
@@ -13,7 +23,8 @@ DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation) : scene
 std::vector<render::DrawnBody> DrawnScene::bodies() const {
   std::vector<render::DrawnBody> drawn;
   for (std::size_t b = 0; b < skin_.size(); ++b)
-    drawn.push_back({skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour});
+    drawn.push_back(
+        {skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour, simulation_.structure().body[b].name});
   for (const DrawnCollider& collider : collider_) drawn.push_back(collider.drawn());
   if (motes_) drawn.push_back(motes_->drawn());
   return drawn;
@@ -21,10 +32,12 @@ std::vector<render::DrawnBody> DrawnScene::bodies() const {
 
 std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
   std::vector<sim::SurfaceState> states;
+  const sim::Structure& structure = simulation_.structure();
   const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
   for (std::size_t b = 0; b < skin_.size(); ++b) {
-    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
+    states.push_back(sim::pose(skin_[b], structure.body[b], state));
     states.back().position.rowwise() -= path;
+    if (wants_strain_) states.back().strain = strain(skin_[b], structure, structure.body[b], state);
   }
   for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
   if (motes_) states.push_back(motes_->at(state.time, path));
@@ -40,15 +53,22 @@ Eigen::AlignedBox3d DrawnScene::box(const sim::State& state) const {
   return box;
 }
 
+Eigen::Vector3d DrawnScene::camera_velocity(const sim::State& state) const { return followed_mean(state.velocity); }
+
 // How far the followed body's centre of mass has come [m].
 Eigen::Vector3d DrawnScene::camera_path(const sim::State& state) const {
+  if (!scene_.followed) return Eigen::Vector3d::Zero();
+  return followed_mean(state.position - simulation_.initial_state().position);
+}
+
+// The mean of rows (n x 3) over the followed body's particles by mass; zero where none is followed.
+Eigen::Vector3d DrawnScene::followed_mean(const Eigen::MatrixX3d& of_particles) const {
   if (!scene_.followed) return Eigen::Vector3d::Zero();
   const sim::Structure& structure = simulation_.structure();
   const sim::Body& body = structure.body[*scene_.followed];
   const auto mass = structure.mass.segment(body.first_particle, body.particles);
-  const Eigen::MatrixX3d way =
-      (state.position - simulation_.initial_state().position).middleRows(body.first_particle, body.particles);
-  return way.transpose() * mass / mass.sum();
+  const Eigen::MatrixX3d rows = of_particles.middleRows(body.first_particle, body.particles);
+  return rows.transpose() * mass / mass.sum();
 }
 
 }  // namespace billow::cli

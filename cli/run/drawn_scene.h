@@ -21,17 +21,21 @@ class DrawnScene {
   std::vector<render::DrawnBody> bodies() const;
   /// Where all of those are at `state`, as the camera sees it: moved along with the body that it follows.
   std::vector<sim::SurfaceState> surfaces(const sim::State& state) const;
+  /// Of that camera [m/s].
+  Eigen::Vector3d camera_velocity(const sim::State& state) const;
   /// The box around the bodies and what of the colliders belongs into a picture of them.
   Eigen::AlignedBox3d box(const sim::State& state) const;
 
  private:
   Eigen::Vector3d camera_path(const sim::State& state) const;
+  Eigen::Vector3d followed_mean(const Eigen::MatrixX3d& of_particles) const;
 
   const Scene& scene_;
   const Simulation& simulation_;
   std::vector<sim::Skin> skin_;
   std::vector<DrawnCollider> collider_;
   std::optional<Motes> motes_;
+  bool wants_strain_;
 };
 
 }  // namespace billow::cli

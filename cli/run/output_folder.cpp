@@ -23,9 +23,9 @@ bool is_empty_or_missing(const fs::path& folder) {
   return fs::directory_iterator(folder, error) == fs::directory_iterator();
 }
 
-bool is_frame(const fs::path& file) {
+bool is_frame(const fs::path& file, std::string_view extension) {
   const std::string stem = file.stem().string();
-  return file.extension() == ".png" && stem.starts_with("frame_") && stem.size() > 6 &&
+  return file.extension() == extension && stem.starts_with("frame_") && stem.size() > 6 &&
          stem.find_first_not_of("0123456789", 6) == std::string::npos;
 }
 
@@ -34,7 +34,7 @@ void remove_earlier_run(const fs::path& folder) {
   for (const render::ViewRow& view : render::views()) {
     std::vector<fs::path> frames;
     for (const auto& entry : fs::directory_iterator(folder / view.folder, error))
-      if (entry.is_regular_file(error) && is_frame(entry.path())) frames.push_back(entry.path());
+      if (entry.is_regular_file(error) && is_frame(entry.path(), view.extension)) frames.push_back(entry.path());
     for (const fs::path& frame : frames) fs::remove(frame, error);
     if (fs::is_directory(folder / view.folder, error))
       fs::remove(folder / view.folder, error);  // only if it is empty now
@@ -101,7 +101,7 @@ void OutputFolder::begin_run() {
 }
 
 fs::path OutputFolder::frame(render::View view, long frame) const {
-  return folder_ / render::folder(view) / fmt::format("frame_{:04}.png", frame);
+  return folder_ / render::folder(view) / fmt::format("frame_{:04}{}", frame, render::row_of(view).extension);
 }
 
 fs::path OutputFolder::file(RunFile file) const { return folder_ / word_of(file); }

@@ -17,6 +17,8 @@ Image read_png(const std::filesystem::path& file);
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.
 void write_png(const std::filesystem::path& file, const Image& image);
+/// As 16-bit grey, the notes as text.
+void write_png(const std::filesystem::path& file, const Image16& image);
 
 /// As write_png, for images too large to hold: `fill_row(y, row)` is asked for one row of pixels after another.
 void write_png_rows(const std::filesystem::path& file, int width, int height, int channels,

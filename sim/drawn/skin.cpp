@@ -1,6 +1,8 @@
 // Particles -> points.
 #include "sim/drawn/skin.h"
 
+#include <cmath>
+
 namespace billow::sim {
 namespace {
 
@@ -28,6 +30,22 @@ SurfaceState pose(const Skin& skin, const Body& body, const State& state) {
   add_along(skin.up, skin.height, particles, points);
   add_along(skin.side, skin.width, particles, points);
   return points;
+}
+
+Eigen::VectorXf strain(const Skin& skin, const Structure& structure, const Body& body, const State& state) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(body.particles), springs = sum;
+  for (int s = body.first_spring; s < body.first_spring + body.springs; ++s) {
+    if (structure.kind[s] != SpringKind::structural) continue;
+    const int a = structure.spring(s, 0), b = structure.spring(s, 1);
+    const double length = (state.position.row(b) - state.position.row(a)).norm();
+    for (const int particle : {a, b}) {
+      sum(particle - body.first_particle) += std::abs(length / structure.rest_length(s) - 1.0);
+      springs(particle - body.first_particle) += 1.0;
+    }
+  }
+  const Eigen::VectorXf particles = (sum.array() / springs.array().max(1.0)).matrix().cast<float>();
+  if (skin.middle.size() == 0) return particles;
+  return skin.middle * particles;
 }
 
 }  // namespace billow::sim

@@ -21,4 +21,8 @@ struct Skin {
 /// Where the skin of `body` is at `state`, and its exact velocity.
 SurfaceState pose(const Skin& skin, const Body& body, const State& state);
 
+/// Strain (p) of the skin's points: of a particle the mean of |l / l_0 - 1| over its structural springs, 0 where it has
+/// none; of a point the mean of its particles' with the weights of their middle.
+Eigen::VectorXf strain(const Skin& skin, const Structure& structure, const Body& body, const State& state);
+
 }  // namespace billow::sim

@@ -173,7 +173,7 @@ TEST(SceneFaults, Ranges) {
        "scene.yaml:9:34: axis has no direction: its length is 0"},
       {"mass: 0.2", "mass: 0.2\n      transform: {rotate: {axis: [0, 1, 0]}}",
        "scene.yaml:9:27: rotate needs the key 'angle'"},
-      {"views: [textured]", "views: []", "scene.yaml:21:10: views is empty: list textured, velocity or both"},
+      {"views: [textured]", "views: []", "scene.yaml:21:10: views is empty: list at least one, such as textured"},
       {"views: [textured]", "views: [textured, textured]", "scene.yaml:21:21: the view 'textured' is listed twice"},
   });
 }
