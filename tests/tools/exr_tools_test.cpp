@@ -30,8 +30,9 @@ class ExrTools : public testing::Test {
 TEST_F(ExrTools, ReadEveryChannelAndNoDate) {
   const test::ToolResult info = run_program("exrinfo", {"-v", file("a")}, folder_.path());
   ASSERT_EQ(info.status, 0) << info.errors;
-  for (const char* channel : {"R", "G", "B", "A", "Z", "velocity.X", "velocity.Y", "velocity.Z", "motion.X", "motion.Y",
-                              "N.X", "N.Y", "N.Z", "UV.U", "UV.V", "strain", "id00.R", "id00.A", "id01.R", "id01.A"})
+  for (const char* channel :
+       {"R",   "G",   "B",   "A",    "Z",    "velocity.X", "velocity.Y", "velocity.Z", "motion.X", "motion.Y",
+        "N.X", "N.Y", "N.Z", "UV.U", "UV.V", "strain",     "id00.R",     "id00.A",     "id01.R",   "id01.A"})
     EXPECT_THAT(info.output, testing::HasSubstr(std::string("'") + channel + "': float")) << channel;
   EXPECT_THAT(info.output, testing::HasSubstr("MurmurHash3_32"));
   EXPECT_THAT(info.output, testing::Not(testing::HasSubstr("capDate")));

@@ -31,7 +31,7 @@ TEST(SceneFaults, Keys) {
       {"filter: {kernel", "filtre: {kernel", "scene.yaml:16:3: unknown key 'filtre' in solver; did you mean 'filter'?"},
       {"  samples: 4", "  antialiasing_quality: 4",
        "scene.yaml:20:3: unknown key 'antialiasing_quality' in render; its keys are: size, fps, samples, views, "
-       "camera, ground, velocity_colour, velocity_range, legend, background"},
+       "camera, ground, velocity_colour, velocity_range, velocity_shading, legend, background"},
       {"duration: 2", "duration: 2\nduration: 3",
        "scene.yaml:3:1: duplicate key 'duration'; it was first given at scene.yaml:2:1"},
       {"      mass: 0.2\n", "      mass: 0.2\n      mass: 0.3\n",
