@@ -16,7 +16,7 @@ class DrawnCollider {
   /// start, its texture once over every square metre.
   DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies);
 
-  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour}; }
+  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour, spec_.solid.name}; }
   /// Its mesh before the motion, as its file has it, or the square.
   const sim::Mesh& mesh() const { return spec_.solid.half_space ? square_ : spec_.solid.mesh; }
   /// Where its motion has points (p x 3) [m] of it at `time` [s].

@@ -29,18 +29,23 @@ class DrawnScene {
   const std::vector<sim::Skin>& skins() const { return skin_; }
   std::vector<sim::SurfaceState> skins_at(const sim::State& state) const;
   const std::vector<DrawnCollider>& colliders() const { return collider_; }
+  /// Of that camera [m/s].
+  Eigen::Vector3d camera_velocity(const sim::State& state) const;
   /// The box around the bodies and what of the colliders belongs into a picture of them.
   Eigen::AlignedBox3d box(const sim::State& state) const;
 
  private:
   Eigen::Vector3d camera_path(const sim::State& state) const;
+  void add_strain(const sim::State& state, std::vector<sim::SurfaceState>& surfaces) const;
   std::vector<sim::SurfaceState> solids_from(const Eigen::RowVector3f& path, const sim::State& state) const;
+  Eigen::Vector3d followed_mean(const Eigen::MatrixX3d& of_particles) const;
 
   const Scene& scene_;
   const Simulation& simulation_;
   std::vector<sim::Skin> skin_;
   std::vector<DrawnCollider> collider_;
   std::optional<Motes> motes_;
+  bool wants_strain_;
 };
 
 }  // namespace billow::cli

@@ -18,7 +18,7 @@
 #include "cli/run/interrupt.h"
 #include "cli/run/recorder.h"
 #include "cli/run/schedule.h"
-#include "render/image/png.h"
+#include "render/image/picture.h"
 
 namespace billow::cli {
 
@@ -77,7 +77,7 @@ class FirstError {
 
 struct FinishedImage {
   std::filesystem::path file;
-  render::Image image;
+  render::Picture picture;
 };
 
 // What the state adds to what a run must be prepared for.
@@ -186,7 +186,7 @@ class Film {
     FinishedImage finished{folder_.frame(view, snapshot.frame), {}};
     {
       const Stopwatch watch(report_.draw);
-      finished.image = renderer.draw(view, snapshot.bodies);
+      finished.picture = renderer.draw(view, snapshot.bodies, snapshot.camera_velocity);
     }
     return images_.push(std::move(finished));
   }
@@ -194,7 +194,7 @@ class Film {
   void encode(StageCost& cost, long& written) {
     while (const auto finished = images_.pop()) {
       const Stopwatch watch(cost);
-      render::write_png(finished->file, finished->image);
+      render::write_picture(finished->file, finished->picture);
       ++written;
     }
   }

@@ -39,7 +39,9 @@ FinishedRun run_of(const fs::path& folder, const Json& record) {
   run.title = fs::path(record.at("scene").at("file").get<std::string>()).stem().string();
   run.fps = record.at("fps").get<double>();
   run.simulated_time = record.at("solver").at("simulated_time").get<double>();
-  for (const Json& name : record.at("views")) run.views.push_back(view_named(name.get<std::string>()).value());
+  for (const Json& name : record.at("views"))
+    if (const render::View view = view_named(name.get<std::string>()).value(); render::is_png(view))
+      run.views.push_back(view);
   std::vector<long> drawn = record.value("drawn", std::vector<long>());  // where not all that were simulated
   for (const Json& frame : record.at("frames"))
     if (const long number = frame.at("frame"); drawn.empty() || std::binary_search(drawn.begin(), drawn.end(), number))
@@ -65,15 +67,17 @@ FinishedRun read_finished_run(const fs::path& folder) {
   if (record.is_object() && record.value("status", Json()) == "running")
     throw InputError(fmt::format("{}: this run has not ended; wait for it, or finish it with 'billow render --resume'",
                                  file.string()));
-  if (record.is_object() && record.value("views", Json()) == Json::array())
-    throw InputError(fmt::format("{}: nothing was drawn of these states; draw them with 'billow render --from {}'",
-                                 file.string(), folder.string()));
+  FinishedRun run;
   try {
-    return run_of(folder, record);
+    run = run_of(folder, record);
   } catch (const std::exception&) {
     throw InputError(fmt::format(
         "{}: is damaged or of another version of billow; render the scene again with --overwrite", file.string()));
   }
+  if (run.views.empty())
+    throw InputError(fmt::format(
+        "{}: this run has no pictures as PNG; draw some, of states with 'billow render --from'", file.string()));
+  return run;
 }
 
 std::vector<render::View> chosen_views(const FinishedRun& run, const std::string& names) {

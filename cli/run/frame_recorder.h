@@ -16,6 +16,7 @@ struct Snapshot {
   long frame = 0;
   double time = 0.0;
   std::vector<sim::SurfaceState> bodies;
+  Eigen::Vector3d camera_velocity = Eigen::Vector3d::Zero();  // [m/s]
 };
 
 /// Records what is to be drawn and hands it over.
@@ -28,7 +29,8 @@ class FrameRecorder : public Recorder {
         drawing_(drawing) {}
   double wants() const override { return frames_.next(); }
   void add(double time, const sim::State& state) override {
-    if (frames_.take(time) && range_.contains(frames_.taken())) next_ = {frames_.taken(), time, drawn_.surfaces(state)};
+    if (frames_.take(time) && range_.contains(frames_.taken()))
+      next_ = {frames_.taken(), time, drawn_.surfaces(state), drawn_.camera_velocity(state)};
   }
   void finish() override { drawing_.close(); }
 

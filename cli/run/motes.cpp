@@ -48,6 +48,7 @@ render::DrawnBody Motes::drawn() const {
   const auto count = static_cast<int>(middle_.rows());
   render::DrawnBody body;
   body.colour = {0.75f, 0.85f, 0.85f};
+  body.name = "motes";
   body.surface.triangle.resize(faces * count, 3);
   for (int m = 0; m < count; ++m)
     body.surface.triangle.middleRows<faces>(faces * m) = octahedron_faces().array() + corners * m;

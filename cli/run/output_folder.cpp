@@ -31,8 +31,8 @@ bool has_extension(const fs::path& file, std::initializer_list<std::string_view>
 
 bool is_frame(const fs::path& file) {
   const std::string stem = file.stem().string();
-  return has_extension(file, {".png", ".obj", ".ply", ".vtp"}) && stem.starts_with("frame_") && stem.size() > 6 &&
-         stem.find_first_not_of("0123456789", 6) == std::string::npos;
+  return has_extension(file, {".png", ".obj", ".ply", ".vtp", ".exr"}) && stem.starts_with("frame_") &&
+         stem.size() > 6 && stem.find_first_not_of("0123456789", 6) == std::string::npos;
 }
 
 bool is_cache(const fs::path& file) {
@@ -146,7 +146,7 @@ void OutputFolder::join_run() {
 }
 
 fs::path frame_of(const fs::path& folder, render::View view, long frame) {
-  return folder / render::folder(view) / fmt::format("frame_{:04}.png", frame);
+  return folder / render::folder(view) / fmt::format("frame_{:04}{}", frame, render::row_of(view).extension);
 }
 
 fs::path OutputFolder::frame(render::View view, long frame) const { return frame_of(folder_, view, frame); }

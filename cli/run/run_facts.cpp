@@ -117,7 +117,8 @@ RunPage describe_run(const Run& run, const FilmReport& report, const std::vector
   page.title = scene.file.stem().string();
   page.summary = summary(run);
   page.notes = notes_of(scene, report, warnings);
-  for (const render::View view : scene.render.views) page.views.emplace_back(render::folder(view));
+  for (const render::View view : scene.render.views)
+    if (render::is_png(view)) page.views.emplace_back(render::folder(view));
   page.width = scene.render.width;
   page.height = scene.render.height;
   page.fps = scene.render.fps;

@@ -19,7 +19,7 @@ struct PageNote {
 struct RunPage {
   std::string title, summary;
   std::vector<PageNote> notes;
-  std::vector<std::string> views;  // names, also of the frames' folders
+  std::vector<std::string> views;  // of PNG frames: names, also of the frames' folders
   int width = 0, height = 0;       // [pixel] of a frame
   double fps = 0.0;                // frame f is at (f - 1) / fps
   RunSeries series;                // knows the first frame and the last, too

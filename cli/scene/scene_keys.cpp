@@ -214,6 +214,7 @@ const Section render{"render",
                       {"ground", within(1e6, "m"), {"true", "false"}},
                       {"velocity_colour", {}, all_words<render::VelocityColour>()},
                       {"velocity_range", above_0(1e6, "m/s"), {"auto"}},
+                      {"velocity_shading", between(0, 1)},
                       {"legend"},
                       {"background", between(0, 1)}}};
 

@@ -42,7 +42,7 @@ void read_views(MapReader& map, std::vector<render::View>& views) {
         fail_at(item->where, fmt::format("the view '{}' is listed twice", item->text));
       views.push_back(view);
     }
-    if (views.empty()) fail_at(node->where, "views is empty: list textured, velocity or both");
+    if (views.empty()) fail_at(node->where, "views is empty: list at least one, such as textured");
   }
   std::vector<NodePtr> record;
   for (const render::View view : views) record.push_back(make_scalar(std::string(word_of(view))));
@@ -161,6 +161,7 @@ RenderDraft read_render(MapReader& scene, double duration, const std::vector<std
   draft.ground_where = map.where("ground");
   settings.velocity_colour = map.choice("velocity_colour", settings.velocity_colour);
   settings.velocity_range = map.number_or_word("velocity_range");
+  settings.velocity_shading = map.number("velocity_shading", settings.velocity_shading);
   settings.legend = map.boolean("legend", settings.legend);
   read_background(map, settings.background);
   return draft;

@@ -16,7 +16,7 @@ std::vector<Key> with_common(std::vector<Key> own) {
 }
 
 const Key times{"times", {0.0, 1e5, false, "s"}};
-const Key views{"views", {}, all_words<render::View>()};
+const Key views{"views", {}, render::png_views()};
 const Key logarithmic{"log", {}, {"x", "y"}};
 
 }  // namespace
@@ -28,7 +28,7 @@ const Section axis{"axis", {{"name"}, {"key"}, {"values"}}};
 const Section axis_value{"value", {{"label"}, {"curve"}, {"set"}}};
 const Section measure{"measure", {{"render"}, {"measured"}, {"repeats", {0, 100}}, {"error"}}};
 const Section error{"error", {{"until", {0.0, 1e5, true, "s"}}, {"set"}}};
-const Section picture_strips{"picture", with_common({{"rows"}, times, {"views", {}, all_words<render::View>()}})};
+const Section picture_strips{"picture", with_common({{"rows"}, times, {"views", {}, render::png_views()}})};
 const Section picture_spectra{"picture", with_common({{"columns"}})};
 const Section picture_frames{"picture", with_common({{"rows"}, times, views})};
 const Section picture_plot{"picture", with_common({{"x"}, {"y"}, {"by"}, {"x_label"}, {"y_label"}, logarithmic})};

@@ -52,7 +52,8 @@ void BodyMesh::describe_moving() const {
 }
 
 void BodyMesh::update(const sim::SurfaceState& state) {
-  if (state.position.rows() < surface_.points() || state.velocity.rows() != state.position.rows())
+  if (state.position.rows() < surface_.points() || state.velocity.rows() != state.position.rows() ||
+      (state.strain.size() != 0 && state.strain.rows() != state.position.rows()))
     throw std::invalid_argument("a body's state has fewer points than its surface");
   const Eigen::MatrixX3f normal = point_normals(surface_, state.position);
   for (std::size_t c = 0; c < corner_.size(); ++c) {
@@ -60,6 +61,7 @@ void BodyMesh::update(const sim::SurfaceState& state) {
     copy_row(state.position, point, corner_[c].position);
     copy_row(normal, point, corner_[c].normal);
     copy_row(state.velocity, point, corner_[c].velocity);
+    corner_[c].strain = state.strain.size() == 0 ? 0.0f : state.strain(point);
   }
   gl_->BindBuffer(GL_ARRAY_BUFFER, moving_.name());
   gl_->BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(corner_.size() * sizeof(Corner)), corner_.data());

@@ -18,10 +18,14 @@ class BodyMesh {
   void update(const sim::SurfaceState& state);
   void draw() const;
 
- private:
+  /// A corner as it is now.
   struct Corner {
-    float position[3], normal[3], velocity[3];
+    float position[3], normal[3], velocity[3], strain;
   };
+  const sim::Surface& surface() const { return surface_; }
+  const std::vector<Corner>& corners() const { return corner_; }
+
+ private:
   void describe_moving() const;
 
   const Gl* gl_;

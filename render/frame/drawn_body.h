@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 
 #include "render/image/image.h"
 #include "sim/drawn/surface.h"
@@ -13,6 +14,7 @@ struct DrawnBody {
   sim::Surface surface;
   Image texture;                                      // empty: plain `colour`
   Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB in [0, 1]
+  std::string name = {};                              // by which the data view knows it
 };
 
 /// What holds for every frame of a run and is known before the first one is drawn.

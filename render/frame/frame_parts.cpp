@@ -9,6 +9,7 @@ FrameParts::FrameParts(const Settings& chosen, const std::vector<DrawnBody>& bod
                        int threads)
     : settings(chosen),
       velocity_range(chosen.velocity_range.value_or(bounds.velocity_scale)),
+      box(bounds.box),
       stage(make_stage(chosen, bounds.box)),
       context(threads),
       target(gl(), context.limits(), chosen.width, chosen.height, chosen.samples),

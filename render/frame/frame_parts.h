@@ -24,14 +24,16 @@ struct FrameParts {
   void update(const std::vector<sim::SurfaceState>& states);
 
   Settings settings;
-  double velocity_range;  // [m/s] v_max: the settings', or else the run's
+  double velocity_range;    // [m/s] v_max: the settings', or else the run's
+  Eigen::AlignedBox3d box;  // [m] of the run's bodies
   Stage stage;
   GlContext context;
   FrameTarget target;
   Shadow shadow;
   Surroundings surroundings;
-  std::vector<BodyMesh> meshes;  // one per body
-  PixelBox covered;              // by the bodies of the current frame
+  std::vector<BodyMesh> meshes;                               // one per body
+  PixelBox covered;                                           // by the bodies of the current frame
+  Eigen::Vector3d camera_velocity = Eigen::Vector3d::Zero();  // [m/s] of the current frame
 };
 
 }  // namespace billow::render

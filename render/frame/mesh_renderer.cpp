@@ -13,17 +13,26 @@ struct MeshRenderer::Impl {
   Impl(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds, int threads);
   ~Impl() { parts.context.make_current(); }
 
+  const ViewPainter& painter(View view);
+
   FrameParts parts;
-  std::map<View, std::unique_ptr<ViewPainter>> painters;
+  std::vector<DrawnBody> bodies;
+  std::map<View, std::unique_ptr<ViewPainter>> painters;  // of the views that were drawn so far
   Image legend;
 };
 
 MeshRenderer::Impl::Impl(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds,
                          int threads)
     : parts(settings, bodies, bounds, threads),
+      bodies(bodies),
       legend(draw_legend(settings.velocity_colour, parts.velocity_range, settings.height)) {
-  for (const ViewDrawing& drawing : view_drawings()) painters[drawing.view] = drawing.make(parts, bodies);
   check_gl(parts.gl(), "setting up");
+}
+
+const ViewPainter& MeshRenderer::Impl::painter(View view) {
+  std::unique_ptr<ViewPainter>& painter = painters[view];
+  if (!painter) painter = drawing_of(view).make(parts, bodies);
+  return *painter;
 }
 
 MeshRenderer::MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds,
@@ -32,15 +41,16 @@ MeshRenderer::MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodi
 
 MeshRenderer::~MeshRenderer() = default;
 
-Image MeshRenderer::draw(View view, const std::vector<sim::SurfaceState>& bodies) {
+Picture MeshRenderer::draw(View view, const std::vector<sim::SurfaceState>& bodies,
+                           const Eigen::Vector3d& camera_velocity) {
   FrameParts& parts = impl_->parts;
   const ViewDrawing& drawing = drawing_of(view);
   parts.context.make_current();
   parts.update(bodies);
-  impl_->painters.at(view)->draw(parts);
-  Image frame = parts.target.read();
+  parts.camera_velocity = camera_velocity;
+  Picture frame = impl_->painter(view).draw(parts);
   check_gl(parts.gl(), "drawing a frame");
-  if (drawing.legend && parts.settings.legend) add_legend(frame, impl_->legend);
+  if (drawing.legend && parts.settings.legend) add_legend(std::get<Image>(frame), impl_->legend);
   return frame;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/frame/drawn_body.h"
-#include "render/image/image.h"
+#include "render/image/picture.h"
 #include "render/image/settings.h"
 #include "sim/drawn/surface.h"
 
@@ -23,8 +23,10 @@ class MeshRenderer {
   MeshRenderer(const MeshRenderer&) = delete;
   MeshRenderer& operator=(const MeshRenderer&) = delete;
 
-  /// One frame of one view: RGB, settings.width x settings.height. `bodies[b]` belongs to the b-th DrawnBody.
-  Image draw(View view, const std::vector<sim::SurfaceState>& bodies);
+  /// One frame of one view, settings.width x settings.height. `bodies[b]` belongs to the b-th DrawnBody, whose place is
+  /// as seen from a camera that moves at `camera_velocity` [m/s].
+  Picture draw(View view, const std::vector<sim::SurfaceState>& bodies,
+               const Eigen::Vector3d& camera_velocity = Eigen::Vector3d::Zero());
 
   /// The v_max [m/s] in use.
   double velocity_range() const;

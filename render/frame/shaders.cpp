@@ -121,6 +121,20 @@ vec3 velocity_colour(vec3 v) {
 }
 )";
 
+const char* const geometry_fragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D albedo_map;
+uniform vec3 colour;
+uniform int body;  // counted from 1: 0 is nothing
+layout(location = 0) out uvec2 hit;
+layout(location = 1) out vec4 albedo;
+
+void main() {
+  hit = uvec2(uint(body), uint(gl_PrimitiveID));
+  albedo = vec4(texture(albedo_map, place).rgb * colour, 1.0);
+}
+)";
+
 const char* const screen_vertex = R"(#version 330 core
 out vec2 place;  // (-1, -1) bottom left to (1, 1) top right
 

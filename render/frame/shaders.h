@@ -8,6 +8,7 @@ extern const char* const lit_fragment;         // lit, textured, two-sided
 extern const char* const velocity_fragment;    // a body in colours of its velocity; to be followed by one of
 extern const char* const component_colour;     // - components as RGB
 extern const char* const magnitude_colour;     // - speed through a colour ramp
+extern const char* const geometry_fragment;    // which triangle of which body, and its unlit colour
 extern const char* const screen_vertex;        // a triangle that covers the target, at the far plane
 extern const char* const gradient_functions;   // the vertical gradient that the next and ground_fragment end with
 extern const char* const background_fragment;  // vertical gradient

@@ -1,4 +1,5 @@
 // The textured view: lit bodies with their textures, and their shadows on the ground.
+#include "render/frame/albedo.h"
 #include "render/frame/shaders.h"
 #include "render/frame/view_drawing.h"
 
@@ -9,39 +10,21 @@ constexpr float shadow_offset = 0.009f;  // [radius]
 constexpr float shadow_blur = 4.5f;      // [texel] of the depth map
 constexpr GLenum albedo_unit = 0, shadow_unit = 1;
 
-Image single_pixel() {
-  Image image(1, 1, 3);
-  image.pixels = {255, 255, 255};
-  return image;
-}
-
-// A texture that covers the body once must not bleed from one edge into the opposite one; a tiled one must.
-GLint wrap_for(const sim::Surface& surface) {
-  const bool once = surface.uv.size() == 0 || (surface.uv.minCoeff() >= 0.0f && surface.uv.maxCoeff() <= 1.0f);
-  return once ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-}
-
-// What a body looks like: the texture times the colour.
-struct Skin {
-  GlObject texture;
-  Eigen::Vector3f colour;
-};
-
-Skin make_skin(const Gl& gl, const DrawnBody& body) {
-  const bool plain = body.texture.pixels.empty();
-  return {make_colour_texture(gl, plain ? single_pixel() : body.texture, wrap_for(body.surface)),
-          plain ? body.colour : Eigen::Vector3f::Ones()};
-}
-
 class TexturedPainter : public ViewPainter {
  public:
   TexturedPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
       : lit_(frame.gl(), "lit", shaders::surface_vertex, shaders::lit_fragment) {
-    for (const DrawnBody& body : bodies) skins_.push_back(make_skin(frame.gl(), body));
+    for (const DrawnBody& body : bodies) albedos_.push_back(make_albedo(frame.gl(), body));
     set_up(frame.stage, frame.shadow);
   }
 
-  void draw(FrameParts& frame) const override {
+  Picture draw(FrameParts& frame) const override {
+    paint(frame);
+    return frame.target.read();
+  }
+
+ private:
+  void paint(FrameParts& frame) const {
     frame.target.recall_backdrop();
     frame.shadow.update(frame.meshes);
     frame.surroundings.draw_shade(frame.target, frame.shadow.ground_texture());
@@ -53,7 +36,6 @@ class TexturedPainter : public ViewPainter {
     frame.target.resolve(frame.covered);
   }
 
- private:
   void set_up(const Stage& stage, const Shadow& shadow) const {
     lit_.use();
     lit_.set("view_projection", stage.view_projection);
@@ -70,15 +52,15 @@ class TexturedPainter : public ViewPainter {
   void draw_bodies(const FrameParts& frame) const {
     lit_.use();
     bind_texture(frame.gl(), shadow_unit, frame.shadow.depth_texture());
-    for (std::size_t b = 0; b < skins_.size(); ++b) {
-      bind_texture(frame.gl(), albedo_unit, skins_[b].texture.name());
-      lit_.set("colour", skins_[b].colour);
+    for (std::size_t b = 0; b < albedos_.size(); ++b) {
+      bind_texture(frame.gl(), albedo_unit, albedos_[b].texture.name());
+      lit_.set("colour", albedos_[b].colour);
       frame.meshes[b].draw();
     }
   }
 
   Program lit_;
-  std::vector<Skin> skins_;  // one per body
+  std::vector<Albedo> albedos_;  // one per body
 };
 
 }  // namespace

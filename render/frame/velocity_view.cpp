@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "render/frame/geometry_pass.h"
 #include "render/frame/shaders.h"
 #include "render/frame/view_drawing.h"
 #include "render/image/colour_map.h"
@@ -33,7 +34,7 @@ std::string fragment_for(VelocityColour colour) {
 
 class VelocityPainter : public ViewPainter {
  public:
-  explicit VelocityPainter(const FrameParts& frame)
+  VelocityPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
       : velocity_(frame.gl(), "velocity", shaders::surface_vertex, fragment_for(frame.settings.velocity_colour)),
         ramp_(make_ramp(frame.gl())) {
     velocity_.use();
@@ -41,9 +42,18 @@ class VelocityPainter : public ViewPainter {
     velocity_.set("eye", frame.stage.camera.eye);
     velocity_.set("velocity_range", static_cast<float>(frame.velocity_range));
     velocity_.set("shading", static_cast<float>(frame.settings.velocity_shading));
+    if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame, bodies);
   }
 
-  void draw(FrameParts& frame) const override {
+  Picture draw(FrameParts& frame) const override {
+    paint(frame);
+    Image image = frame.target.read();
+    if (exact_) put_exact(frame, image);
+    return image;
+  }
+
+ private:
+  void paint(FrameParts& frame) const {
     frame.target.bind_plain();
     frame.gl().ClearColor(backdrop, backdrop, backdrop, 1.0f);
     frame.gl().Clear(GL_COLOR_BUFFER_BIT);
@@ -56,15 +66,29 @@ class VelocityPainter : public ViewPainter {
     frame.target.resolve(frame.covered);
   }
 
- private:
+  // GL's way to sRGB and back rounds otherwise than the formula: pixels that a body fills get its colour as it is.
+  void put_exact(FrameParts& frame, Image& image) const {
+    exact_->draw(frame, [&](int x, int y, std::span<const GeometrySample> hits) {
+      if (static_cast<int>(hits.size()) < exact_->samples_per_pixel()) return;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const GeometrySample& hit : hits) sum += hit.velocity;
+      const Eigen::Vector3d velocity = sum / static_cast<double>(hits.size());
+      const Rgb8 colour = frame.settings.velocity_colour == VelocityColour::components
+                              ? velocity_rgb(velocity, frame.velocity_range)
+                              : magnitude_rgb(velocity.norm() / frame.velocity_range);
+      std::copy(colour.begin(), colour.end(), image.row(y) + 3 * x);
+    });
+  }
+
   Program velocity_;
   GlObject ramp_;
+  std::unique_ptr<GeometryPass> exact_;  // where colours are not shaded
 };
 
 }  // namespace
 
-std::unique_ptr<ViewPainter> make_velocity_painter(const FrameParts& frame, const std::vector<DrawnBody>&) {
-  return std::make_unique<VelocityPainter>(frame);
+std::unique_ptr<ViewPainter> make_velocity_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies) {
+  return std::make_unique<VelocityPainter>(frame, bodies);
 }
 
 }  // namespace billow::render

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/frame/frame_parts.h"
+#include "render/image/picture.h"
 #include "render/image/views.h"
 
 namespace billow::render {
@@ -15,9 +16,8 @@ namespace billow::render {
 class ViewPainter {
  public:
   virtual ~ViewPainter() = default;
-  /// Draws the bodies where they are now onto the target's plain picture, all of which it overwrites. Must leave
-  /// nothing behind that another view's frame would show.
-  virtual void draw(FrameParts& frame) const = 0;
+  /// The picture of the bodies where they are now. Must leave nothing behind that another view's frame would show.
+  virtual Picture draw(FrameParts& frame) const = 0;
 };
 
 struct ViewDrawing {
@@ -34,5 +34,9 @@ const ViewDrawing& drawing_of(View view);
 // The makers, each in the file of its view. `frame` holds the same bodies; its context is current.
 std::unique_ptr<ViewPainter> make_textured_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
 std::unique_ptr<ViewPainter> make_velocity_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
+std::unique_ptr<ViewPainter> make_data_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
+std::unique_ptr<ViewPainter> make_depth_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
+std::unique_ptr<ViewPainter> make_normal_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
+std::unique_ptr<ViewPainter> make_id_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
 
 }  // namespace billow::render

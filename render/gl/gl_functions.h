@@ -20,6 +20,7 @@ namespace billow::render {
   X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                    \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                  \
   X(PFNGLCLEARPROC, Clear)                                                    \
+  X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                  \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                          \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                    \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                    \
@@ -35,6 +36,7 @@ namespace billow::render {
   X(PFNGLDISABLEPROC, Disable)                                                \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                          \
   X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                          \
+  X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                                        \
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                                      \
   X(PFNGLENABLEPROC, Enable)                                                  \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                \

@@ -18,6 +18,8 @@ Image read_png(const std::filesystem::path& file);
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.
 void write_png(const std::filesystem::path& file, const Image& image);
+/// As 16-bit grey, the notes as text.
+void write_png(const std::filesystem::path& file, const Image16& image);
 
 /// The bytes of the file that write_png would write.
 std::string encode_png(const Image& image);

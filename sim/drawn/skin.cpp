@@ -1,6 +1,8 @@
 // Particles -> points.
 #include "sim/drawn/skin.h"
 
+#include <cmath>
+
 namespace billow::sim {
 namespace {
 

@@ -19,8 +19,9 @@ struct Surface {
 
 /// The part that moves: one row per point.
 struct SurfaceState {
-  Eigen::MatrixX3f position;  // [m]   (p x 3)
-  Eigen::MatrixX3f velocity;  // [m/s] (p x 3)
+  Eigen::MatrixX3f position;    // [m]   (p x 3)
+  Eigen::MatrixX3f velocity;    // [m/s] (p x 3)
+  Eigen::VectorXf strain = {};  //     (p) mean |l / l_0 - 1| of the structural springs that meet there; empty: none
 };
 
 /// The drawn surface of `mesh`: quads split along their shorter diagonal, one corner per distinct (vertex, uv).

@@ -87,7 +87,7 @@ render::Settings frontal_settings() {
 
 render::Image draw_sheet(const DrawnSheet& sheet, render::View view, const render::Settings& settings) {
   render::MeshRenderer renderer(settings, {sheet.body}, sheet.bounds);
-  return renderer.draw(view, {sheet.state});
+  return std::get<render::Image>(renderer.draw(view, {sheet.state}));
 }
 
 }  // namespace billow::test

@@ -28,7 +28,7 @@ render::Settings sheet_settings();
 /// Straight at the flat sheet, which fills the middle half of the picture.
 render::Settings frontal_settings();
 
-/// One frame by a renderer of its own.
+/// One frame by a renderer of its own, of a view whose pictures are Images.
 render::Image draw_sheet(const DrawnSheet& sheet, render::View view, const render::Settings& settings);
 
 }  // namespace billow::test

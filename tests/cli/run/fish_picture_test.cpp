@@ -25,7 +25,7 @@ class FishPicture : public testing::Test {
       bounds.box.extend(body.position.colwise().minCoeff().transpose().cast<double>());
       bounds.box.extend(body.position.colwise().maxCoeff().transpose().cast<double>());
     }
-    return render::MeshRenderer(scene_.render, drawn_.bodies(), bounds).draw(view, bodies);
+    return std::get<render::Image>(render::MeshRenderer(scene_.render, drawn_.bodies(), bounds).draw(view, bodies));
   }
 
   cli::Scene scene_ = cli::read_scene(BILLOW_SOURCE_DIR "/scenes/fish.yaml", small_picture);

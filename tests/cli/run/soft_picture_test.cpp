@@ -27,8 +27,8 @@ TEST(SoftPicture, ShowsBothStars) {
     bounds.box.extend(body.position.colwise().maxCoeff().transpose().cast<double>());
   }
   render::MeshRenderer renderer(scene.render, drawn.bodies(), bounds);
-  EXPECT_GOLDEN(renderer.draw(render::View::textured, bodies), "soft_textured");
-  EXPECT_GOLDEN(renderer.draw(render::View::velocity, bodies), "soft_velocity");
+  EXPECT_GOLDEN(std::get<render::Image>(renderer.draw(render::View::textured, bodies)), "soft_textured");
+  EXPECT_GOLDEN(std::get<render::Image>(renderer.draw(render::View::velocity, bodies)), "soft_velocity");
 }
 
 }  // namespace

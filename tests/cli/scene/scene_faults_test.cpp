@@ -31,7 +31,7 @@ TEST(SceneFaults, Keys) {
       {"filter: {kernel", "filtre: {kernel", "scene.yaml:16:3: unknown key 'filtre' in solver; did you mean 'filter'?"},
       {"  samples: 4", "  antialiasing_quality: 4",
        "scene.yaml:20:3: unknown key 'antialiasing_quality' in render; its keys are: size, fps, samples, views, "
-       "camera, ground, velocity_colour, velocity_range, legend, background"},
+       "camera, ground, velocity_colour, velocity_range, velocity_shading, legend, background"},
       {"duration: 2", "duration: 2\nduration: 3",
        "scene.yaml:3:1: duplicate key 'duration'; it was first given at scene.yaml:2:1"},
       {"      mass: 0.2\n", "      mass: 0.2\n      mass: 0.3\n",
@@ -173,7 +173,7 @@ TEST(SceneFaults, Ranges) {
        "scene.yaml:9:34: axis has no direction: its length is 0"},
       {"mass: 0.2", "mass: 0.2\n      transform: {rotate: {axis: [0, 1, 0]}}",
        "scene.yaml:9:27: rotate needs the key 'angle'"},
-      {"views: [textured]", "views: []", "scene.yaml:21:10: views is empty: list textured, velocity or both"},
+      {"views: [textured]", "views: []", "scene.yaml:21:10: views is empty: list at least one, such as textured"},
       {"views: [textured]", "views: [textured, textured]", "scene.yaml:21:21: the view 'textured' is listed twice"},
   });
 }

@@ -66,6 +66,7 @@ render:
   ground: -1.5
   velocity_colour: magnitude
   velocity_range: 4
+  velocity_shading: 0
   legend: false
   background: {top: "#000000", bottom: "#FFFFFF"}
 strip: {step: 0.02, order: mesh}
@@ -143,6 +144,7 @@ TEST(SceneReader, ReadsTheRendering) {
   EXPECT_EQ(settings.ground_height, -1.5);
   EXPECT_EQ(settings.velocity_colour, render::VelocityColour::magnitude);
   EXPECT_EQ(settings.velocity_range, 4.0);
+  EXPECT_EQ(settings.velocity_shading, 0.0);
   EXPECT_FALSE(settings.legend);
   EXPECT_TRUE(settings.background.top.isZero());
   EXPECT_TRUE(settings.background.bottom.isOnes());

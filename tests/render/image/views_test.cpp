@@ -12,7 +12,8 @@ namespace billow::render {
 namespace {
 
 TEST(Views, HaveARowForEveryEnumerator) {
-  for (const View view : {View::textured, View::velocity}) EXPECT_EQ(row_of(view).view, view);
+  for (const View view : {View::textured, View::velocity, View::data, View::depth, View::normal, View::id})
+    EXPECT_EQ(row_of(view).view, view);
   EXPECT_THROW(row_of(static_cast<View>(-1)), std::logic_error);
 }
 
@@ -32,6 +33,12 @@ TEST(Views, KeepTheirNamesAndFolders) {
   EXPECT_EQ(name(View::velocity), "velocity");
   EXPECT_EQ(folder(View::textured), "textured");
   EXPECT_EQ(folder(View::velocity), "velocity");
+  EXPECT_EQ(folder(View::data), "data");
+}
+
+TEST(Views, AllButDataArePngFiles) {
+  EXPECT_THAT(png_views(), testing::ElementsAre("textured", "velocity", "depth", "normal", "id"));
+  EXPECT_EQ(row_of(View::data).extension, ".exr");
 }
 
 TEST(Views, AreWrittenByTheirNames) {

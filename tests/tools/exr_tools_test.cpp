@@ -1,0 +1,63 @@
+// Data frames as other programs read them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/mesh_files.h"
+#include "tests/support/tool.h"
+
+namespace billow {
+namespace {
+
+using test::run_program;
+
+class ExrTools : public testing::Test {
+ protected:
+  // One frame of two tiny pictures of the drape: the second is from a run of its own.
+  void SetUp() override {
+    for (const char* folder : {"a", "b"}) {
+      const test::ToolResult result = test::run_tool(
+          {"render", BILLOW_SOURCE_DIR "/scenes/drape.yaml", "-D", "duration=0.1", "-D", "render.size=[96, 54]", "-D",
+           "render.views=[data, depth, normal, id]", "--frames", "2", "-o", folder},
+          folder_.path());
+      ASSERT_EQ(result.status, 0) << result.errors;
+    }
+  }
+  std::string file(const char* folder) const { return (folder_.path() / folder / "data/frame_0002.exr").string(); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ExrTools, ReadEveryChannelAndNoDate) {
+  const test::ToolResult info = run_program("exrinfo", {"-v", file("a")}, folder_.path());
+  ASSERT_EQ(info.status, 0) << info.errors;
+  for (const char* channel :
+       {"R",   "G",   "B",   "A",    "Z",    "velocity.X", "velocity.Y", "velocity.Z", "motion.X", "motion.Y",
+        "N.X", "N.Y", "N.Z", "UV.U", "UV.V", "strain",     "id00.R",     "id00.A",     "id01.R",   "id01.A"})
+    EXPECT_THAT(info.output, testing::HasSubstr(std::string("'") + channel + "': float")) << channel;
+  EXPECT_THAT(info.output, testing::HasSubstr("MurmurHash3_32"));
+  EXPECT_THAT(info.output, testing::Not(testing::HasSubstr("capDate")));
+}
+
+TEST_F(ExrTools, FindTwoRunsTheSameToTheByte) {
+  EXPECT_EQ(test::read_text(file("a")), test::read_text(file("b")));
+  const test::ToolResult diff = run_program("idiff", {file("a"), file("b")}, folder_.path());
+  EXPECT_EQ(diff.status, 0) << diff.output << diff.errors;
+}
+
+TEST_F(ExrTools, SeeThePictureWhereTheAlphaIs) {
+  const test::ToolResult stats = run_program("oiiotool", {file("a"), "--ch", "A", "--stats"}, folder_.path());
+  ASSERT_EQ(stats.status, 0) << stats.errors;
+  EXPECT_THAT(stats.output, testing::HasSubstr("Stats Max: 1.0"));
+  EXPECT_THAT(stats.output, testing::HasSubstr("Stats Min: 0.0"));
+}
+
+TEST_F(ExrTools, ReadTheDepthViewAs16Bits) {
+  const std::string depth = (folder_.path() / "a/depth/frame_0002.png").string();
+  const test::ToolResult info = run_program("oiiotool", {"--info", "-v", depth}, folder_.path());
+  ASSERT_EQ(info.status, 0) << info.errors;
+  EXPECT_THAT(info.output, testing::HasSubstr("1 channel, uint16"));
+  EXPECT_THAT(info.output, testing::HasSubstr("near"));
+}
+
+}  // namespace
+}  // namespace billow
