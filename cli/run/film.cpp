@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "cli/run/channel.h"
+#include "cli/run/component_histogram.h"
 #include "cli/run/frame_recorder.h"
 #include "cli/run/incident_text.h"
 #include "cli/run/interrupt.h"
@@ -79,13 +80,6 @@ struct FinishedImage {
   std::filesystem::path file;
   render::Picture picture;
 };
-
-// What the state adds to what a run must be prepared for.
-void take_into(render::RunBounds& bounds, const Run& run, const sim::State& state) {
-  const Eigen::RowVector3d mean_square = state.velocity.colwise().squaredNorm() / state.velocity.rows();
-  bounds.velocity_scale = std::max(bounds.velocity_scale, 2.0 * std::sqrt(mean_square.maxCoeff()));
-  bounds.box.extend(run.drawn.box(state));
-}
 
 // What the process holds in memory [KiB]; 0 where the system does not say.
 long resident_memory() {
@@ -186,7 +180,7 @@ class Film {
     FinishedImage finished{folder_.frame(view, snapshot.frame), {}};
     {
       const Stopwatch watch(report_.draw);
-      finished.picture = renderer.draw(view, snapshot.bodies, snapshot.camera_velocity);
+      finished.picture = renderer.draw(view, snapshot.bodies, snapshot.camera_velocity, snapshot.time);
     }
     return images_.push(std::move(finished));
   }
@@ -217,6 +211,9 @@ class Film {
 
 namespace {
 
+// Of all velocity components of a run, as many are within the colours: a whipping corner does not grey out all else.
+constexpr double shown_share = 0.99;
+
 /// Says what went wrong and was mended as soon as it is known.
 class IncidentTeller {
  public:
@@ -235,7 +232,7 @@ class IncidentTeller {
 
 Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progress& progress) {
   Survey result;
-  result.bounds.velocity_scale = 0.0;
+  ComponentHistogram components;
   const Stopwatch watch(result.cost, CLOCK_PROCESS_CPUTIME_ID);
   const long frames = frame_count(run.scene);
   IncidentTeller incidents(run.choice.step, progress);
@@ -249,7 +246,8 @@ Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progres
       if (!sample) break;
       if (spool) spool->add(*sample);
       if (!shown.take(sample->time)) continue;
-      take_into(result.bounds, run, sample->state);
+      result.bounds.box.extend(run.drawn.box(sample->state));
+      components.add(sample->state.velocity);
       progress.update(shown.taken(), sample->time);
     }
   } catch (const DivergenceError& error) {
@@ -257,7 +255,8 @@ Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progres
   }
   progress.end();
   if (spool) spool->close(states.facts(), divergence);
-  if (result.bounds.velocity_scale == 0.0) result.bounds.velocity_scale = 1.0;
+  const double scale = components.percentile(shown_share);
+  result.bounds.velocity_scale = scale > 0.0 ? scale : 1.0;
   return result;
 }
 

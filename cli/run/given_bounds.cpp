@@ -2,6 +2,7 @@
 #include "cli/run/given_bounds.h"
 
 #include "render/frame/camera.h"
+#include "render/image/camera_motion.h"
 
 namespace billow::cli {
 
@@ -13,7 +14,8 @@ std::optional<render::RunBounds> given_bounds(const Run& run) {
   render::RunBounds bounds;
   bounds.velocity_scale = *settings.velocity_range;
   bounds.box = run.drawn.box(run.simulation.initial_state());
-  bounds.box.extend(render::framed_box(settings.camera, aspect));
+  for (const render::Camera& camera : render::cameras_along(settings.camera))
+    bounds.box.extend(render::framed_box(camera, aspect));
   return bounds;
 }
 

@@ -211,24 +211,33 @@ const Section render{"render",
                       {"samples", {}, {"1", "2", "4", "8", "16"}},
                       {"views", {}, all_words<render::View>()},
                       {"camera", {}, {"fit"}},
-                      {"ground", within(1e6, "m"), {"true", "false"}},
+                      {"ground", within(1e6, "m"), {"true", "false", "shadow_only"}},
                       {"velocity_colour", {}, all_words<render::VelocityColour>()},
                       {"velocity_range", above_0(1e6, "m/s"), {"auto"}},
                       {"velocity_shading", between(0, 1)},
                       {"legend"},
-                      {"background", between(0, 1)}}};
+                      {"background", between(0, 1), {"none"}}}};
 
 const Section camera{"camera",
                      {{"eye", within(1e6, "m"), {"fit"}},
                       {"look_at", within(1e6, "m"), {"fit"}},
                       {"fov", between(1, 170, "degrees")},
+                      {"keys"},
+                      {"turntable", above_0(1e5, "s"), {"none"}},
                       {"follow"}}};
+
+const Section camera_key{"the key",
+                         {{"time", between(0, 1e5, "s")},
+                          {"eye", within(1e6, "m")},
+                          {"look_at", within(1e6, "m")},
+                          {"fov", between(1, 170, "degrees")}}};
 
 const Section ground{"ground",
                      {{"height", within(1e6, "m")},
                       {"collide", {}, {"true", "false"}},
                       {"thickness", above_0(1, "m")},
-                      {"friction", between(0, 100)}}};
+                      {"friction", between(0, 100)},
+                      {"shadow_only", {}, {"true", "false"}}}};
 
 const Section background{"background", {{"top", between(0, 1)}, {"bottom", between(0, 1)}}};
 
@@ -285,6 +294,7 @@ const std::vector<PlacedSection>& all() {
                                                    {"solver.filter", &filter},
                                                    {"render", &render},
                                                    {"render.camera", &camera},
+                                                   {"render.camera.keys[]", &camera_key},
                                                    {"render.ground", &ground},
                                                    {"render.background", &background},
                                                    {"strip", &strip},

@@ -9,6 +9,7 @@
 #include "cli/scene/scene_parts.h"
 #include "cli/text/number_text.h"
 #include "cli/yaml/colour_text.h"
+#include "render/image/camera_motion.h"
 
 namespace billow::cli {
 namespace {
@@ -69,6 +70,42 @@ void read_camera_keys(MapReader& map, render::Camera& camera) {
   camera.look_at = *look_at;
 }
 
+render::CameraKey read_camera_key(const Node& node, double fov, const NodePtr& record) {
+  MapReader map(node, keys::section("render.camera.keys[]"), record);
+  render::CameraKey key;
+  key.time = map.number("time");
+  map.require("eye"), map.require("look_at");
+  key.eye = map.vector("eye", {}), key.look_at = map.vector("look_at", {});
+  key.vertical_fov = map.number("fov", fov) * std::numbers::pi / 180.0;
+  return key;
+}
+
+// Between keys the eye may come to what it looks at, and then there is no direction to look in.
+void check_way(const render::Camera& camera, const std::string& where) {
+  for (const render::Camera& moment : render::cameras_along(camera))
+    if ((moment.eye - moment.look_at).norm() < 1e-9)
+      fail_at(where, "on its way the camera's eye comes to what it looks at; add a key that leads around it");
+}
+
+void read_camera_path(MapReader& map, double fov, render::Camera& camera) {
+  std::vector<NodePtr> record;
+  if (const Node* node = map.find("keys"))
+    for (const NodePtr& item : read_list(*node, "keys")) {
+      record.push_back(make_map());
+      camera.keys.push_back(read_camera_key(*item, fov, record.back()));
+      const std::size_t count = camera.keys.size();
+      if (count > 1 && !(camera.keys[count - 1].time > camera.keys[count - 2].time))
+        fail_at(item->where,
+                fmt::format("keys[{}] is no later than the one before it; sort the keys by time", count - 1));
+    }
+  map.record("keys", make_list(std::move(record)));
+  camera.turn_period = map.number_or_word("turntable").value_or(0.0);
+  if (camera.keys.empty()) return;
+  if (!camera.fitted) fail_at(map.where("keys"), "with keys, which say where the camera is, leave out eye and look_at");
+  camera.fitted = false;
+  check_way(camera, map.where("keys"));
+}
+
 // The place of the body that the camera stays beside.
 std::optional<int> read_follow(MapReader& camera, const std::vector<std::string>& bodies) {
   const std::string name = camera.text("follow", "none");
@@ -85,6 +122,7 @@ std::optional<int> read_camera(MapReader& map, render::Camera& camera, const std
   if (node && is_word(*node, "fit")) node = nullptr;
   MapReader camera_map = map.map_from(node, "camera", keys::section("render.camera"));
   read_camera_keys(camera_map, camera);
+  read_camera_path(camera_map, camera.vertical_fov * 180.0 / std::numbers::pi, camera);
   return read_follow(camera_map, bodies);
 }
 
@@ -100,18 +138,30 @@ sim::Collider read_colliding_ground(MapReader& ground) {
   return collider;
 }
 
-// A map of keys. Without collision only the height matters, and is entered as if it stood alone.
+// A ground that does not collide, as short as a scene can write it.
+NodePtr record_of_ground(const render::Settings& settings) {
+  const NodePtr height = settings.ground_height ? record_of(*settings.ground_height) : nullptr;
+  if (!settings.shadow_only) return height ? height : make_scalar("true");
+  if (!height) return make_scalar("shadow_only");
+  const NodePtr record = make_map();
+  record->entries = {{"height", {}, height}, {"shadow_only", {}, make_scalar("true")}};
+  return record;
+}
+
+// A map of keys. Without collision only the height and what is drawn matter.
 std::optional<sim::Collider> read_ground_map(MapReader& map, const Node& node, render::Settings& settings) {
   const Section& section = keys::section("render.ground");
   settings.ground = true;
   MapReader plain(node, section, make_map());
+  settings.shadow_only = plain.boolean("shadow_only", false);
   if (!plain.boolean("collide", false)) {
     if (plain.find("height")) settings.ground_height = plain.number("height");
-    map.record("ground", settings.ground_height ? record_of(*settings.ground_height) : make_scalar("true"));
+    map.record("ground", record_of_ground(settings));
     return std::nullopt;
   }
   MapReader ground = map.map_from(&node, "ground", section);
   const sim::Collider collider = read_colliding_ground(ground);
+  ground.boolean("shadow_only", false);
   settings.ground_height = collider.half_space->point.y();
   return collider;
 }
@@ -124,13 +174,23 @@ std::optional<sim::Collider> read_ground(MapReader& map, render::Settings& setti
     settings.ground = map.boolean("ground", settings.ground);
     return std::nullopt;
   }
+  if (is_word(*node, "shadow_only")) {
+    settings.ground = settings.shadow_only = true;
+    map.record("ground", make_scalar("shadow_only"));
+    return std::nullopt;
+  }
   settings.ground = true;
   settings.ground_height = map.number("ground");
   return std::nullopt;
 }
 
-// One colour is short for the same colour at top and bottom.
+// One colour is short for the same colour at top and bottom; `none` leaves pictures transparent.
 void read_background(MapReader& map, render::Background& background) {
+  if (const Node* node = map.find("background"); node && is_word(*node, "none")) {
+    background.none = true;
+    map.record("background", make_scalar("none"));
+    return;
+  }
   const Node* node = map.find("background", "; a colour that begins with # needs quotes");
   Node both = *make_map();
   if (node && node->kind != Node::Kind::map) {
@@ -164,6 +224,8 @@ RenderDraft read_render(MapReader& scene, double duration, const std::vector<std
   settings.velocity_shading = map.number("velocity_shading", settings.velocity_shading);
   settings.legend = map.boolean("legend", settings.legend);
   read_background(map, settings.background);
+  if (settings.shadow_only && !settings.background.none)
+    fail_at(draft.ground_where, "a ground that is shadow_only needs 'background: none', before which it lies");
   return draft;
 }
 

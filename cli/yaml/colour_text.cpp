@@ -7,19 +7,15 @@
 #include <charconv>
 #include <cmath>
 
+#include "render/image/srgb.h"
+
 namespace billow::cli {
 namespace {
 
 constexpr Range unit_range{0.0, 1.0};
 
-// IEC 61966-2-1.
-double to_linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
-double to_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
 Eigen::Vector3f to_linear(const Eigen::Vector3d& srgb) {
-  return srgb.unaryExpr([](double c) { return to_linear(c); }).cast<float>();
+  return srgb.unaryExpr([](double c) { return render::srgb_to_linear(c); }).cast<float>();
 }
 
 // "#rrggbb" -> sRGB in [0, 1].
@@ -70,7 +66,7 @@ Eigen::Vector3f read_colour(MapReader& map, std::string_view key, const Eigen::V
 }
 
 std::string hex_colour(const Eigen::Vector3f& linear) {
-  const auto byte = [](float c) { return std::lround(255.0 * to_srgb(std::clamp(c, 0.0f, 1.0f))); };
+  const auto byte = [](float c) { return std::lround(255.0 * render::linear_to_srgb(std::clamp(c, 0.0f, 1.0f))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(linear(0)), byte(linear(1)), byte(linear(2)));
 }
 

@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 
+#include "render/image/camera_motion.h"
+
 namespace billow::render {
 
 FrameParts::FrameParts(const Settings& chosen, const std::vector<DrawnBody>& bodies, const RunBounds& bounds,
@@ -10,7 +12,9 @@ FrameParts::FrameParts(const Settings& chosen, const std::vector<DrawnBody>& bod
     : settings(chosen),
       velocity_range(chosen.velocity_range.value_or(bounds.velocity_scale)),
       box(bounds.box),
+      camera(still_camera(chosen, bounds.box)),
       stage(make_stage(chosen, bounds.box)),
+      next_camera(stage.camera),
       context(threads),
       target(gl(), context.limits(), chosen.width, chosen.height, chosen.samples),
       shadow(gl(), stage),
@@ -22,8 +26,18 @@ FrameParts::FrameParts(const Settings& chosen, const std::vector<DrawnBody>& bod
   surroundings.draw_backdrop(target);
 }
 
-void FrameParts::update(const std::vector<sim::SurfaceState>& states) {
+// The backdrop is seen from elsewhere too; what a still camera sees of it is drawn once.
+void FrameParts::move_camera(double time) {
+  if (!moves(camera)) return;
+  set_camera(stage, settings, box, camera_at(camera, time));
+  next_camera = camera_at(camera, time + 1.0 / settings.fps);
+  surroundings.see_from(stage);
+  surroundings.draw_backdrop(target);
+}
+
+void FrameParts::update(const std::vector<sim::SurfaceState>& states, double time) {
   if (states.size() != meshes.size()) throw std::invalid_argument("draw() wants one state for each body");
+  move_camera(time);
   const Eigen::Matrix4f view_projection = stage.view_projection.cast<float>();
   covered = {};
   for (std::size_t b = 0; b < meshes.size(); ++b) {

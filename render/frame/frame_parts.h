@@ -20,13 +20,18 @@ struct FrameParts {
   FrameParts(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds, int threads);
 
   const Gl& gl() const { return context.gl(); }
-  /// Moves the bodies: states[b] belongs to the b-th. Throws std::invalid_argument when the states are not theirs.
-  void update(const std::vector<sim::SurfaceState>& states);
+  /// Moves the bodies, states[b] belonging to the b-th, and the camera to `time` [s]. Throws std::invalid_argument when
+  /// the states are not theirs.
+  void update(const std::vector<sim::SurfaceState>& states, double time);
+
+  void move_camera(double time);
 
   Settings settings;
   double velocity_range;    // [m/s] v_max: the settings', or else the run's
   Eigen::AlignedBox3d box;  // [m] of the run's bodies
+  Camera camera;            // as it starts to move
   Stage stage;
+  Camera next_camera;  // of the frame after the current one
   GlContext context;
   FrameTarget target;
   Shadow shadow;

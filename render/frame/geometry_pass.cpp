@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "render/frame/camera.h"
 #include "render/frame/shaders.h"
+#include "render/image/camera_motion.h"
 
 namespace billow::render {
 namespace {
@@ -101,10 +102,21 @@ class Sampler {
   // x' / z' - x / z without cancellation, for x' = x + u dt, z' = z + w dt: (u - w x / z) dt / z'. Depth is -z. What
   // would pass the eye within a frame stops just before it.
   Eigen::Vector2d motion(const Eigen::Vector3d& ray, const GeometrySample& sample) const {
+    if (moves(frame_.camera)) return motion_before(frame_.next_camera, ray, sample);
     const Eigen::Vector3d way =
         view_.topLeftCorner<3, 3>() * (sample.velocity - frame_.camera_velocity) / frame_.settings.fps;
     const double depth = std::max(sample.depth - way.z(), 1e-3 * sample.depth);
     return focal_ / depth * (way.head<2>() + way.z() * ray.head<2>());
+  }
+
+  // The same where the next frame is taken by another camera.
+  Eigen::Vector2d motion_before(const Camera& next, const Eigen::Vector3d& ray, const GeometrySample& sample) const {
+    const Eigen::Vector3d place =
+        view_.topLeftCorner<3, 3>().transpose() * (sample.depth * ray) + frame_.stage.camera.eye;
+    const Eigen::Vector3d there = place + (sample.velocity - frame_.camera_velocity) / frame_.settings.fps;
+    const Eigen::Vector3d seen = (view_matrix(next) * there.homogeneous()).head<3>();
+    const double next_focal = 0.5 * frame_.settings.height / std::tan(0.5 * next.vertical_fov);
+    return next_focal / std::max(-seen.z(), 1e-3 * sample.depth) * seen.head<2>() - focal_ * ray.head<2>();
   }
 
   const FrameParts& frame_;

@@ -8,6 +8,7 @@
 #include "render/frame/camera.h"
 #include "render/frame/geometry_pass.h"
 #include "render/frame/view_drawing.h"
+#include "render/image/camera_motion.h"
 #include "render/image/colour_map.h"
 
 namespace billow::render {
@@ -20,7 +21,8 @@ struct DepthRange {
 
 DepthRange depth_range(const FrameParts& frame) {
   if (frame.box.isEmpty()) return {0.0, 1.0};
-  const Eigen::AlignedBox3d seen = transformed_box(frame.box, view_matrix(frame.stage.camera));
+  Eigen::AlignedBox3d seen;
+  for (const Camera& camera : cameras_along(frame.camera)) seen.extend(transformed_box(frame.box, view_matrix(camera)));
   const double near = std::max(0.0, -seen.max().z());
   return {near, std::max(-seen.min().z(), near + 1e-3)};
 }

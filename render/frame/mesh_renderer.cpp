@@ -42,15 +42,16 @@ MeshRenderer::MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodi
 MeshRenderer::~MeshRenderer() = default;
 
 Picture MeshRenderer::draw(View view, const std::vector<sim::SurfaceState>& bodies,
-                           const Eigen::Vector3d& camera_velocity) {
+                           const Eigen::Vector3d& camera_velocity, double time) {
   FrameParts& parts = impl_->parts;
   const ViewDrawing& drawing = drawing_of(view);
   parts.context.make_current();
-  parts.update(bodies);
+  parts.update(bodies, time);
   parts.camera_velocity = camera_velocity;
   Picture frame = impl_->painter(view).draw(parts);
   check_gl(parts.gl(), "drawing a frame");
-  if (drawing.legend && parts.settings.legend) add_legend(std::get<Image>(frame), impl_->legend);
+  if (drawing.legend && parts.settings.legend && !parts.settings.background.none)
+    add_legend(std::get<Image>(frame), impl_->legend);
   return frame;
 }
 

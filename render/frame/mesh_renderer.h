@@ -24,9 +24,10 @@ class MeshRenderer {
   MeshRenderer& operator=(const MeshRenderer&) = delete;
 
   /// One frame of one view, settings.width x settings.height. `bodies[b]` belongs to the b-th DrawnBody, whose place is
-  /// as seen from a camera that moves at `camera_velocity` [m/s].
+  /// as seen from a camera that moves at `camera_velocity` [m/s]. `time` [s] is what a camera with keys or a turntable
+  /// goes by.
   Picture draw(View view, const std::vector<sim::SurfaceState>& bodies,
-               const Eigen::Vector3d& camera_velocity = Eigen::Vector3d::Zero());
+               const Eigen::Vector3d& camera_velocity = Eigen::Vector3d::Zero(), double time = 0.0);
 
   /// The v_max [m/s] in use.
   double velocity_range() const;

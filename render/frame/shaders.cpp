@@ -203,6 +203,19 @@ out vec4 pixel;
 void main() { pixel = vec4(mix(vec3(1.0), shadow_tint, texture(occlusion, 0.5 + 0.5 * place).r), 1.0); }
 )";
 
+const char* const shadow_alpha_fragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D occlusion;
+uniform vec3 shadow_tint;
+out vec4 pixel;
+
+// Black that takes as much light as the shadow does.
+void main() {
+  float taken = 1.0 - dot(shadow_tint, vec3(0.2126, 0.7152, 0.0722));
+  pixel = vec4(0.0, 0.0, 0.0, taken * texture(occlusion, 0.5 + 0.5 * place).r);
+}
+)";
+
 const char* const copy_fragment = R"(#version 330 core
 uniform sampler2D picture;
 out vec4 pixel;

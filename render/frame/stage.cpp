@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/frame/camera.h"
+#include "render/image/camera_motion.h"
 
 namespace billow::render {
 namespace {
@@ -68,17 +69,39 @@ Eigen::Matrix4d camera_projection(const Settings& settings, const Stage& stage, 
   return perspective(stage.camera.vertical_fov, aspect, near, far);
 }
 
+// What of `box` is seen while it is turned about its vertical middle.
+Eigen::AlignedBox3d turned_box(const Eigen::AlignedBox3d& box) {
+  const double reach = 0.5 * std::hypot(box.sizes().x(), box.sizes().z());
+  const Eigen::Vector3d half(reach, 0.5 * box.sizes().y(), reach);
+  return {box.center() - half, box.center() + half};
+}
+
 }  // namespace
+
+Camera still_camera(const Settings& settings, const Eigen::AlignedBox3d& bounds) {
+  const Camera& camera = settings.camera;
+  if (!camera.fitted) return camera;
+  const Eigen::AlignedBox3d box = sound_box(bounds);
+  if (camera.turn_period == 0.0) return fit_camera(camera, box, double(settings.width) / settings.height);
+  // It turns around the box's middle, wherever the fit would look.
+  Camera fitted = fit_camera(camera, turned_box(box), double(settings.width) / settings.height);
+  fitted.eye += box.center() - fitted.look_at;
+  fitted.look_at = box.center();
+  return fitted;
+}
+
+void set_camera(Stage& stage, const Settings& settings, const Eigen::AlignedBox3d& bounds, const Camera& camera) {
+  stage.camera = camera;
+  stage.view_projection = camera_projection(settings, stage, sound_box(bounds)) * view_matrix(camera);
+}
 
 Stage make_stage(const Settings& settings, const Eigen::AlignedBox3d& bounds) {
   const Eigen::AlignedBox3d box = sound_box(bounds);
-  const double aspect = double(settings.width) / settings.height;
   Stage stage;
-  stage.camera = settings.camera.fitted ? fit_camera(settings.camera, box, aspect) : settings.camera;
   stage.radius = 0.5 * box.diagonal().norm();
   stage.ground_height = ground_height(settings, box);
+  set_camera(stage, settings, bounds, camera_at(still_camera(settings, bounds), 0.0));
   const Eigen::Matrix4d view = view_matrix(stage.camera);
-  stage.view_projection = camera_projection(settings, stage, box) * view;
   stage.to_light = direction_from(view, key_light);
   stage.to_fill = direction_from(view, fill_light);
   const Eigen::Matrix4d to_light_view = light_view(stage.to_light);

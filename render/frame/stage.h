@@ -13,9 +13,9 @@ struct GroundPatch {
   Eigen::Vector3d half_u, half_v;  // [m]
 };
 
-/// Camera and light of a run, fixed for all frames so that nothing swims.
+/// Camera and light of a run. The light is fixed for all frames so that nothing swims: as the camera stands at first.
 struct Stage {
-  Camera camera;                     // fitted where the settings ask for it
+  Camera camera;                     // of the moment; fitted where the settings ask for it
   Eigen::Matrix4d view_projection;   // world -> clip
   Eigen::Vector3d to_light;          // unit, world -> key light: over the camera's left shoulder
   Eigen::Vector3d to_fill;           // unit, world -> fill light, which casts no shadow: to the camera's right
@@ -32,7 +32,13 @@ constexpr double light_spread = 0.10;
 /// [radius] half the side of the square of ground that is drawn; the ground fades out over it.
 constexpr double ground_extent = 8.0;
 
-/// `box` [m] holds all positions of all frames.
+/// `box` [m] holds all positions of all frames. The camera is that of time 0.
 Stage make_stage(const Settings& settings, const Eigen::AlignedBox3d& box);
+
+/// The camera of the settings, fitted where they ask for it, before it moves.
+Camera still_camera(const Settings& settings, const Eigen::AlignedBox3d& box);
+
+/// Moves the stage's camera. `box` as make_stage had it.
+void set_camera(Stage& stage, const Settings& settings, const Eigen::AlignedBox3d& box, const Camera& camera);
 
 }  // namespace billow::render

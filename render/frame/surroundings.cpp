@@ -36,10 +36,13 @@ void set_gradient(const Program& program, const Background& background, int heig
 
 Surroundings::Surroundings(const Gl& gl, const Settings& settings, const Stage& stage, int drawn_height)
     : gl_(&gl),
-      has_ground_(settings.ground),
+      has_background_(!settings.background.none),
+      has_ground_(settings.ground && has_background_),
+      has_shade_(has_ground_ || (settings.ground && settings.shadow_only)),
       background_(gl, "background", shaders::screen_vertex, with_gradient(shaders::background_fragment)),
       ground_(gl, "ground", shaders::ground_vertex, with_gradient(shaders::ground_fragment)),
-      shade_(gl, "shade", shaders::ground_vertex, shaders::shade_fragment),
+      shade_(gl, "shade", shaders::ground_vertex,
+             has_background_ ? shaders::shade_fragment : shaders::shadow_alpha_fragment),
       copy_(gl, "copy", shaders::screen_vertex, shaders::copy_fragment),
       copy_ground_(gl, "copy ground", shaders::ground_vertex, shaders::copy_fragment),
       no_vertices_(make_vertex_array(gl)) {
@@ -52,10 +55,22 @@ Surroundings::Surroundings(const Gl& gl, const Settings& settings, const Stage& 
   shade_.set("shadow_tint", shadow_tint);
 }
 
+void Surroundings::see_from(const Stage& stage) const {
+  for (const Program* program : {&ground_, &copy_ground_, &shade_}) {
+    program->use();
+    program->set("view_projection", stage.view_projection);
+  }
+}
+
 void Surroundings::draw_backdrop(const FrameTarget& target) const {
   target.bind_plain();
-  background_.use();
-  draw_screen();
+  if (has_background_) {
+    background_.use();
+    draw_screen();
+  } else {
+    gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+  }
   if (has_ground_) {
     ground_.use();
     draw_ground_square();
@@ -63,19 +78,19 @@ void Surroundings::draw_backdrop(const FrameTarget& target) const {
   target.keep_backdrop();
 }
 
-// The shadow multiplies the ground that is already there.
+// The shadow multiplies the ground that is already there; without one it is an alpha before nothing.
 void Surroundings::draw_shade(const FrameTarget& target, GLuint shadow) const {
-  if (!has_ground_) return;
+  if (!has_shade_) return;
   target.bind_plain();
   shade_.use();
   bind_texture(*gl_, 0, shadow);
-  gl_->Enable(GL_BLEND);
+  if (has_background_) gl_->Enable(GL_BLEND);
   draw_ground_square();
   gl_->Disable(GL_BLEND);
 }
 
 void Surroundings::fill_behind_ground(const FrameTarget& target) const {
-  if (!has_ground_) return;
+  if (!has_shade_) return;
   copy_ground_.use();
   bind_texture(*gl_, 0, target.plain_texture());
   draw_ground_square();

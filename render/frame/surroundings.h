@@ -13,6 +13,8 @@ class Surroundings {
   /// The background, and a ground that fades into it.
   Surroundings(const Gl& gl, const Settings& settings, const Stage& stage, int drawn_height);
 
+  /// The stage's camera has moved.
+  void see_from(const Stage& stage) const;
   /// Draws background and ground without shadows, which are the same in every frame, and keeps them as the backdrop.
   void draw_backdrop(const FrameTarget& target) const;
   /// Darkens the ground of the plain picture by the shadow on the stage's patch.
@@ -27,7 +29,7 @@ class Surroundings {
   void draw_screen() const;
 
   const Gl* gl_;
-  bool has_ground_;
+  bool has_background_, has_ground_, has_shade_;
   Program background_, ground_, shade_, copy_, copy_ground_;
   GlObject no_vertices_;
 };

@@ -20,7 +20,7 @@ class TexturedPainter : public ViewPainter {
 
   Picture draw(FrameParts& frame) const override {
     paint(frame);
-    return frame.target.read();
+    return frame.target.read(frame.settings.background.none);
   }
 
  private:
@@ -38,8 +38,6 @@ class TexturedPainter : public ViewPainter {
 
   void set_up(const Stage& stage, const Shadow& shadow) const {
     lit_.use();
-    lit_.set("view_projection", stage.view_projection);
-    lit_.set("eye", stage.camera.eye);
     lit_.set("to_light", stage.to_light);
     lit_.set("to_fill", stage.to_fill);
     lit_.set("light_texture", shadow.light_texture());
@@ -51,6 +49,8 @@ class TexturedPainter : public ViewPainter {
 
   void draw_bodies(const FrameParts& frame) const {
     lit_.use();
+    lit_.set("view_projection", frame.stage.view_projection);
+    lit_.set("eye", frame.stage.camera.eye);
     bind_texture(frame.gl(), shadow_unit, frame.shadow.depth_texture());
     for (std::size_t b = 0; b < albedos_.size(); ++b) {
       bind_texture(frame.gl(), albedo_unit, albedos_[b].texture.name());

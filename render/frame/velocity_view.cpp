@@ -10,7 +10,7 @@
 namespace billow::render {
 namespace {
 
-constexpr float backdrop = 0.82f;  // linear light: neutral, brighter than a body at rest
+constexpr float backdrop = 0.045f;  // linear light: neutral, darker than a body at rest
 
 Image ramp_image() {
   Image image(256, 1, 3);
@@ -38,8 +38,6 @@ class VelocityPainter : public ViewPainter {
       : velocity_(frame.gl(), "velocity", shaders::surface_vertex, fragment_for(frame.settings.velocity_colour)),
         ramp_(make_ramp(frame.gl())) {
     velocity_.use();
-    velocity_.set("view_projection", frame.stage.view_projection);
-    velocity_.set("eye", frame.stage.camera.eye);
     velocity_.set("velocity_range", static_cast<float>(frame.velocity_range));
     velocity_.set("shading", static_cast<float>(frame.settings.velocity_shading));
     if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame, bodies);
@@ -47,7 +45,7 @@ class VelocityPainter : public ViewPainter {
 
   Picture draw(FrameParts& frame) const override {
     paint(frame);
-    Image image = frame.target.read();
+    Image image = frame.target.read(frame.settings.background.none);
     if (exact_) put_exact(frame, image);
     return image;
   }
@@ -55,11 +53,14 @@ class VelocityPainter : public ViewPainter {
  private:
   void paint(FrameParts& frame) const {
     frame.target.bind_plain();
-    frame.gl().ClearColor(backdrop, backdrop, backdrop, 1.0f);
+    const float grey = frame.settings.background.none ? 0.0f : backdrop;
+    frame.gl().ClearColor(grey, grey, grey, frame.settings.background.none ? 0.0f : 1.0f);
     frame.gl().Clear(GL_COLOR_BUFFER_BIT);
     if (frame.covered.empty()) return;
     frame.target.bind_sampled(frame.covered);
     velocity_.use();
+    velocity_.set("view_projection", frame.stage.view_projection);
+    velocity_.set("eye", frame.stage.camera.eye);
     bind_texture(frame.gl(), 0, ramp_.name());
     for (const BodyMesh& mesh : frame.meshes) mesh.draw();
     frame.surroundings.fill_behind_bodies(frame.target);
@@ -76,7 +77,7 @@ class VelocityPainter : public ViewPainter {
       const Rgb8 colour = frame.settings.velocity_colour == VelocityColour::components
                               ? velocity_rgb(velocity, frame.velocity_range)
                               : magnitude_rgb(velocity.norm() / frame.velocity_range);
-      std::copy(colour.begin(), colour.end(), image.row(y) + 3 * x);
+      std::copy(colour.begin(), colour.end(), image.row(y) + image.channels * x);
     });
   }
 

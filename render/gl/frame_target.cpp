@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "render/image/srgb.h"
 
 namespace billow::render {
 namespace {
@@ -64,6 +66,25 @@ Image to_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) {
   return image;
 }
 
+// Samples that nothing covers are black: what GL averaged is the colour times its alpha, in linear light.
+Image to_straight_rgba(const std::vector<std::uint8_t>& rgba, int width, int height) {
+  Image image(width, height, 4);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = rgba.data() + std::size_t(height - 1 - y) * width * 4;
+    std::uint8_t* to = image.row(y);
+    for (int x = 0; x < width; ++x, from += 4, to += 4) {
+      to[3] = from[3];
+      if (from[3] == 255) std::copy_n(from, 3, to);
+      if (from[3] == 0 || from[3] == 255) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double linear = std::min(1.0, srgb_to_linear(from[c] / 255.0) * 255.0 / from[3]);
+        to[c] = static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(linear)));
+      }
+    }
+  }
+  return image;
+}
+
 }  // namespace
 
 FrameTarget::FrameTarget(const Gl& gl, const GlLimits& limits, int width, int height, int samples)
@@ -115,7 +136,7 @@ void FrameTarget::resolve(const PixelBox& box) const {
                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-Image FrameTarget::read() {
+Image FrameTarget::read(bool with_alpha) {
   if (scale_ > 1) {
     // Half the size with bilinear filtering samples the middle of each 2 x 2 block: its mean.
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, plain_.name());
@@ -124,7 +145,7 @@ Image FrameTarget::read() {
   }
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, scale_ > 1 ? reduced_.name() : plain_.name());
   gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
-  return to_rgb(rgba_, width_, height_);
+  return with_alpha ? to_straight_rgba(rgba_, width_, height_) : to_rgb(rgba_, width_, height_);
 }
 
 }  // namespace billow::render

@@ -33,8 +33,8 @@ class FrameTarget {
   /// The plain picture, to draw with.
   GLuint plain_texture() const { return plain_colour_.name(); }
 
-  /// The plain picture at the picture's size: RGB.
-  Image read();
+  /// The plain picture at the picture's size: RGB, or with what it covers as straight alpha, RGBA.
+  Image read(bool with_alpha = false);
 
  private:
   void copy(const GlObject& from, const GlObject& to) const;

@@ -1,0 +1,16 @@
+// The encoding of colours in pictures and scenes (IEC 61966-2-1).
+#pragma once
+
+#include <cmath>
+
+namespace billow::render {
+
+/// Both in [0, 1].
+inline double srgb_to_linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+inline double linear_to_srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+}  // namespace billow::render
