@@ -21,7 +21,7 @@ void NpyFile::finish(const std::vector<long>& shape) const {
   AtomicFile output(file_);
   const std::string header = npy_header(type_, shape, false);
   if (!output.write(header.data(), header.size())) output.fail();
-  std::vector<char> block(std::size_t{1} << 20);
+  std::vector<char> block(std::size_t{1} << 16);
   for (std::size_t at = 0; at < bytes_; at += block.size()) {
     const std::size_t size = std::min(block.size(), bytes_ - at);
     spool_.read(block.data(), size, at);

@@ -212,7 +212,7 @@ class Film {
 namespace {
 
 // Of all velocity components of a run, as many are within the colours: a whipping corner does not grey out all else.
-constexpr double shown_share = 0.99;
+constexpr double shown_share = 0.95;
 
 /// Says what went wrong and was mended as soon as it is known.
 class IncidentTeller {

@@ -75,7 +75,7 @@ struct FilmReport {
 };
 
 /// Goes through all states of `states` without drawing, to find the box that the frames take up and the scale of their
-/// velocities (99 % of their components are within it): the camera, the shadow and the velocity colours are then the
+/// velocities (95 % of their components are within it): the camera, the shadow and the velocity colours are then the
 /// same for every frame, whichever frames are drawn. `spool`, where there is one, gets all states. A divergence ends
 /// the survey early without an error; the film then meets it too.
 Survey survey(const Run& run, StateSource& states, SpooledStates* spool, Progress& progress);

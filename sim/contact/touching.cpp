@@ -1,6 +1,9 @@
 // One look at the surface, as if nothing moved.
 #include "sim/contact/touching.h"
 
+#include <algorithm>
+
+#include "sim/contact/closest_points.h"
 #include "sim/contact/detection.h"
 
 namespace billow::sim {
@@ -9,19 +12,23 @@ namespace {
 // [thicknesses] what a detection of standing vertices finds is no farther.
 constexpr double reach = 1.5;
 
+// Of the distance at which parts of one cloth rest: nearer than that they have been brought together.
+constexpr double brought_together = 0.8;
+
 // [m] Where a thick cloth's neighbours rest nearer than its thickness they keep a little less than that, and touch only
-// when they are pressed together.
+// when they are pressed together; neighbours somewhat farther than that are no nearer than they rest.
 double reach_of(const ContactPair& pair, const ContactSurface& surface) {
   const auto part = [&](int k) -> const SurfacePart& { return surface.part[surface.part_of[pair.vertex[k]]]; };
   const bool as_they_rest = pair.thickness < part(0).thickness + part(pair.on_a).thickness;
-  return pair.radius + (as_they_rest ? 1.0 : reach) * pair.thickness;
+  if (as_they_rest) return pair.radius + pair.thickness;
+  const double far = pair.radius + reach * pair.thickness;
+  if (&part(0) != &part(pair.on_a)) return far;
+  return std::min(far, brought_together * nearest_points(pair.vertex, pair.on_a, surface.rest).difference.norm());
 }
 
 void add_pairs(const Detection& detection, const ContactSurface& surface, const Points& x, Eigen::VectorXd& touches) {
   for (const ContactPair& pair : detection.pairs()) {
-    Eigen::Vector3d difference = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k) difference += pair.weight[k] * x[pair.vertex[k]];
-    if (difference.norm() > reach_of(pair, surface)) continue;
+    if (nearest_points(pair.vertex, pair.on_a, x).difference.norm() > reach_of(pair, surface)) continue;
     for (int k = 0; k < 4; ++k)
       if (pair.weight[k] != 0.0 && pair.vertex[k] < touches.size()) touches(pair.vertex[k]) = 1.0;
   }

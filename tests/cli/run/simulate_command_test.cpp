@@ -202,7 +202,7 @@ TEST_F(Simulate, SaysWhatDoesNotFit) {
   };
   EXPECT_THAT(refusal({"-D", "bodies.drape.cloth.mass=0.06"}, 4), HasSubstr("a scene that moves otherwise"));
   EXPECT_THAT(refusal({"-D", "render.fps=50"}, 4), HasSubstr("a scene that moves otherwise"));
-  EXPECT_THAT(refusal({"-D", "duration=2"}, 4), HasSubstr("there are 25 frames, and the scene has 50; go on with"));
+  EXPECT_THAT(refusal({"-D", "duration=1.2"}, 4), HasSubstr("there are 25 frames, and the scene has 30; go on with"));
   EXPECT_THAT(refusal({"--frames", "26"}, 4), HasSubstr("--frames 26: the scene has frames 1 to 25"));
   EXPECT_THAT(refusal({"--resume"}, 2), HasSubstr("--from"));
   EXPECT_EQ(run({"render", "--from", "none", "-o", "film"}).status, 4);

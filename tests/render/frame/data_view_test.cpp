@@ -190,7 +190,9 @@ TEST(DataView, IsTheSameInPicturesOfSeveralBands) {
   const std::vector<float>& v = channel(image, "UV.V");
   for (int y = 1; y < settings.height; ++y) {
     const std::size_t p = std::size_t(settings.width) * y + 640;
-    if (a[p] == 1.0f && a[p - settings.width] == 1.0f) EXPECT_LT(v[p], v[p - settings.width]) << y;
+    if (a[p] == 1.0f && a[p - settings.width] == 1.0f) {
+      EXPECT_LT(v[p], v[p - settings.width]) << y;
+    }
   }
 }
 
@@ -221,8 +223,9 @@ TEST(DepthView, CodesDepthSoThatItCanBeReadBack) {
   EXPECT_NEAR(far, eye_z + 0.8, 1e-12);
   for (std::size_t p = 0; p < seen.pixels.size(); ++p) {
     EXPECT_EQ(seen.pixels[p] == 0, channel(data, "A")[p] == 0.0f);
-    if (seen.pixels[p] != 0)
+    if (seen.pixels[p] != 0) {
       EXPECT_NEAR(far - (seen.pixels[p] - 1) / 65534.0 * (far - near), channel(data, "Z")[p], 1e-4 * (far - near));
+    }
   }
 }
 

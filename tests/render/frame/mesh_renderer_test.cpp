@@ -76,7 +76,7 @@ TEST(MeshRenderer, DrawsItsBackSide) {
 TEST(MeshRenderer, DrawsClosedBodiesInOpenWaterWithoutGround) {
   const Settings settings = with(sheet_settings(), [](Settings& s) {
     s.ground = false;
-    s.background = {{0.10f, 0.30f, 0.40f}, {0.01f, 0.05f, 0.12f}};
+    s.background.top = {0.10f, 0.30f, 0.40f}, s.background.bottom = {0.01f, 0.05f, 0.12f};
   });
   EXPECT_GOLDEN(draw_sheet(wavy_sheet(), View::textured, settings), "sheet_in_water");
 }
@@ -221,7 +221,7 @@ TEST(MeshRenderer, AveragesSamplesInLinearLight) {
 
 TEST(MeshRenderer, EncodesALinearBackgroundAsSrgb) {
   const Settings settings = with(frontal_settings(), [](Settings& s) {
-    s.background = {{0.5f, 0.2f, 0.02f}, {0.5f, 0.2f, 0.02f}};
+    s.background.top = s.background.bottom = {0.5f, 0.2f, 0.02f};
   });
   const auto seen = pixel(draw_sheet(flat_sheet(), View::textured, settings), 2, 2);
   EXPECT_NEAR(seen[0], byte_of(0.5), 1);
@@ -289,7 +289,7 @@ TEST(MeshRenderer, HidesWhatIsBelowTheGround) {
   test::DrawnSheet sunk = sheet;
   sunk.state.position.col(1).array() -= 3.0f;
   MeshRenderer renderer(high, {sunk.body}, sheet.bounds);
-  EXPECT_LE(compare(renderer.draw(View::textured, {sunk.state}), bare).max, 1);
+  EXPECT_LE(compare(drawn(renderer, View::textured, {sunk.state}), bare).max, 1);
 }
 
 TEST(MeshRenderer, DrawsPlainColourWithoutATexture) {

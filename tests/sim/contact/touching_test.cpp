@@ -11,7 +11,9 @@ constexpr double thin = 0.004;  // [m] of cloth and plane
 // Of two level sheets, the second a `gap` [m] above the first and half as wide, both above a plane.
 Eigen::VectorXd touching_at(double gap, double above_plane, double thickness = thin) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
-  Collider plane{.name = "plane", .half_space = HalfSpace{-above_plane * up, up}, .thickness = thickness};
+  Collider plane;
+  plane.name = "plane", plane.thickness = thickness;
+  plane.half_space = HalfSpace{-above_plane * up, up};
   const auto scene =
       test::touching_scene("sheets",
                            {{.mesh = test::flat_sheet(8, 8, 1.0, Eigen::Vector3d::Zero()), .thickness = thickness},
