@@ -56,8 +56,19 @@ one soft_body 25 textured soft_body "${small[@]}" -D 'render.camera={eye: [0, 0.
 # The model on a run's page, as a browser shows it.
 ./billow render scenes/table.yaml -o "$work/page" --progress none --cache glb -D duration=1.5 -D 'render.size=[640, 360]'
 chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --hide-scrollbars --force-device-scale-factor=1 \
-  --user-data-dir="$work/chromium" --window-size=1280,900 --virtual-time-budget=8000 \
-  --screenshot="$PWD/docs/images/page_3d.png" "file://$work/page/index.html#viewer"
+  --user-data-dir="$work/chromium" --window-size=1280,2300 --virtual-time-budget=10000 \
+  --screenshot="$work/page_3d.png" "file://$work/page/index.html"
+ffmpeg -v error -y -i "$work/page_3d.png" -vf crop=1280:688:0:1600 docs/images/page_3d.png
+# A turntable, and what of a frame other views say.
+./billow render scenes/table.yaml -o "$work/turn" --progress none -D duration=1.2 -D 'render.size=[480, 270]' \
+  -D render.samples=8 -D 'render.camera={turntable: 1.2}' -D 'render.views=[textured]'
+./billow sheet "$work/turn" -n 8 --columns 4 -o docs/images/turntable.png --overwrite
+./billow render scenes/drape.yaml --frames 18 -o "$work/views" --progress none -D 'render.size=[480, 270]' \
+  -D 'render.views=[textured, velocity, depth, normal]' -D duration=1
+ffmpeg -v error -y -i "$work/views/textured/frame_0018.png" -i "$work/views/velocity/frame_0018.png" \
+  -i "$work/views/depth/frame_0018.png" -i "$work/views/normal/frame_0018.png" -filter_complex \
+  "[0]format=rgb24[a];[1]format=rgb24[b];[2]format=rgb24[c];[3]format=rgb24[d];[a][b][c][d]xstack=inputs=4:layout=0_0|w0_0|0_h0|w0_h0" \
+  docs/images/views.png
 # The drape's geometry in other programs, for docs/export.md.
 ./billow render scenes/drape.yaml --frames 1-40 -o "$work/export" --cache pc2,vtp --progress none -D 'render.size=[64, 36]'
 blender -b --factory-startup --python-exit-code 1 --python docs/export_blender.py -- "$work/export/caches" 15 \
