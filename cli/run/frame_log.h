@@ -17,10 +17,12 @@ struct FrameRecord {
   double kinetic = 0.0, potential = 0.0;              // [J]
   Eigen::Vector3d linear_momentum, angular_momentum;  // [kg m/s], [kg m^2/s] about the origin
   sim::Stretch stretch = {};
+  long touching = 0;  // particles that touch something (sim/contact/touching.h)
 };
 
-/// What of a frame is measured: kinetic and potential energy, the two momenta by axis, largest and mean stretch.
-std::array<double, 10> measures_of(const FrameRecord& record);
+/// What of a frame is measured: kinetic and potential energy, the two momenta by axis, largest and mean stretch, and
+/// the number of particles that touch.
+std::array<double, 11> measures_of(const FrameRecord& record);
 
 /// Records in the order in which they were added; iterate over it as over a vector. Throws OutputError.
 class FrameLog {

@@ -4,14 +4,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "base/atomic_file.h"
 #include "cli/run/film.h"
 #include "sim/body/momenta.h"
 #include "sim/body/stretch.h"
+#include "sim/contact/touching.h"
 
 namespace billow::cli {
 
 namespace {
+
+long touching_particles(const Simulation& simulation, const sim::State& state) {
+  const std::optional<sim::ContactModel>& contact = simulation.phase_at(state.time).contact;
+  return contact ? std::lround(sim::touching(*contact, state).sum()) : 0;
+}
 
 FrameRecord record_of(const Simulation& simulation, long frame, const sim::State& state) {
   const sim::Structure& structure = simulation.structure();
@@ -21,7 +29,8 @@ FrameRecord record_of(const Simulation& simulation, long frame, const sim::State
           simulation.forces().potential_energy(state),
           sim::linear_momentum(structure, state),
           sim::angular_momentum(structure, state),
-          sim::stretch_of(structure, state)};
+          sim::stretch_of(structure, state),
+          touching_particles(simulation, state)};
 }
 
 }  // namespace
@@ -49,7 +58,7 @@ void MotionRecorder::finish() {
   append(
       "frame,time_s,kinetic_energy_J,potential_energy_J,linear_momentum_x_kg_m_s,linear_momentum_y_kg_m_s,"
       "linear_momentum_z_kg_m_s,angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s,"
-      "largest_stretch,mean_stretch\n");
+      "largest_stretch,mean_stretch,touching_particles\n");
   for (const FrameRecord& record : report_.frames)
     append(fmt::format("{},{},{}\n", record.frame, record.time, fmt::join(measures_of(record), ",")));
   output.commit();

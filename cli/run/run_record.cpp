@@ -100,7 +100,8 @@ Json frame_record(const FrameRecord& f) {
           {"linear_momentum", list(f.linear_momentum)},
           {"angular_momentum", list(f.angular_momentum)},
           {"largest_stretch", f.stretch.largest},
-          {"mean_stretch", f.stretch.mean}};
+          {"mean_stretch", f.stretch.mean},
+          {"touching_particles", f.touching}};
 }
 
 Json cache_records(const FilmReport& report) {

@@ -10,9 +10,9 @@ namespace billow::cli {
 namespace {
 
 // In the order of Quantity: what is measured, and the energies' sum.
-std::array<double, 11> quantities_of(const FrameRecord& record) {
+std::array<double, 12> quantities_of(const FrameRecord& record) {
   const auto measures = measures_of(record);
-  std::array<double, 11> quantities{};
+  std::array<double, 12> quantities{};
   std::copy(measures.begin(), measures.end(), quantities.begin());
   quantities.back() = record.kinetic + record.potential;
   return quantities;

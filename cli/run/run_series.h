@@ -22,6 +22,7 @@ enum class Quantity {
   angular_z,
   largest_stretch,
   mean_stretch,
+  touching,
   total,
 };
 
@@ -45,7 +46,7 @@ class RunSeries {
   long last_frame() const { return last_frame_; }
 
  private:
-  static constexpr int quantities = 11;
+  static constexpr int quantities = 12;
   struct Group {
     std::array<PlotPoint, quantities> low, high;
   };

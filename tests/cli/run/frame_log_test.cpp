@@ -12,7 +12,7 @@ namespace {
 
 FrameRecord record(long frame) {
   const double t = static_cast<double>(frame) / 3.0;
-  return {frame, t, 2.0 * t, -t, {t, 0.1, 1e-300}, {-t, 1e300, 7.0}, {0.1 * t, -1e-9}};
+  return {frame, t, 2.0 * t, -t, {t, 0.1, 1e-300}, {-t, 1e300, 7.0}, {0.1 * t, -1e-9}, 3 * frame};
 }
 
 TEST(FrameLog, GivesBackExactlyWhatWasAddedAndLeavesNoFile) {
@@ -33,6 +33,7 @@ TEST(FrameLog, GivesBackExactlyWhatWasAddedAndLeavesNoFile) {
     EXPECT_EQ(got.angular_momentum, wanted.angular_momentum);
     EXPECT_EQ(got.stretch.largest, wanted.stretch.largest);
     EXPECT_EQ(got.stretch.mean, wanted.stretch.mean);
+    EXPECT_EQ(got.touching, wanted.touching);
   }
   EXPECT_EQ(next, 105);
 }

@@ -86,6 +86,7 @@ TEST_F(RawData, TheTableIsTheRecordsFrames) {
       "    assert float(row['kinetic_energy_J']) == frame['kinetic_energy']\n"
       "    assert float(row['angular_momentum_z_kg_m2_s']) == frame['angular_momentum'][2]\n"
       "    assert float(row['mean_stretch']) == frame['mean_stretch']\n"
+      "    assert int(row['touching_particles']) == frame['touching_particles'] == 0\n"
       "table = np.genfromtxt('run/frames.csv', delimiter=',', names=True)\n"
       "assert table.shape == (10,) and table['kinetic_energy_J'][-1] > 0\n");
 }
