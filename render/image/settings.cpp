@@ -4,8 +4,8 @@
 namespace billow::render {
 
 Words<VelocityColour> words(VelocityColour) {
-  static constexpr Word<VelocityColour> list[] = {{"components", VelocityColour::components},
-                                                  {"magnitude", VelocityColour::magnitude}};
+  static constexpr Word<VelocityColour> list[] = {{"magnitude", VelocityColour::magnitude},
+                                                  {"components", VelocityColour::components}};
   return list;
 }
 

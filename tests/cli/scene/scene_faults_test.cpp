@@ -212,7 +212,7 @@ TEST(SceneFaults, Words) {
       {"views: [textured]", "views: [texture]", "scene.yaml:21:11: unknown view 'texture'; did you mean 'textured'?"},
       {"step: auto", "step: automatic", "scene.yaml:15:9: step must be auto, paper or a number, not 'automatic'"},
       {"samples: 4", "samples: 4\n  velocity_colour: rgb",
-       "scene.yaml:21:20: unknown velocity_colour 'rgb'; known are: components, magnitude"},
+       "scene.yaml:21:20: unknown velocity_colour 'rgb'; known are: magnitude, components"},
       {"billow: 1\n", "billow: 2\n",
        "scene.yaml:1:9: billow, the version of the scene format, must be 1: this billow reads version 1 only"},
       {"billow: 1\n", "billow: '1'\n",

@@ -49,7 +49,7 @@ TEST(Views, AreWrittenByTheirNames) {
 TEST(VelocityColour, HasItsWords) {
   EXPECT_EQ(word_of(VelocityColour::components), "components");
   EXPECT_EQ(word_of(VelocityColour::magnitude), "magnitude");
-  EXPECT_THAT(all_words<VelocityColour>(), testing::ElementsAre("components", "magnitude"));
+  EXPECT_THAT(all_words<VelocityColour>(), testing::ElementsAre("magnitude", "components"));
 }
 
 }  // namespace
