@@ -114,7 +114,7 @@ void take(const std::string& name, const std::string& bytes, const std::filesyst
   }
   Eigen::MatrixXd& matrix = result.matrix[name];
   matrix.resize(shape[0], shape[1]);
-  std::memcpy(matrix.data(), bytes.data() + header.size(), count * sizeof(double));
+  if (count > 0) std::memcpy(matrix.data(), bytes.data() + header.size(), count * sizeof(double));  // else no address
 }
 
 template <class Value>
