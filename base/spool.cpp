@@ -71,7 +71,7 @@ void Spool::read(void* bytes, std::size_t size, std::size_t offset) const {
 }
 
 void Spool::copy_to(AtomicFile& file, std::size_t size) const {
-  std::string piece(std::min(size, std::size_t{1} << 20), '\0');
+  std::string piece(std::min(size, std::size_t{1} << 16), '\0');
   for (std::size_t done = 0; done < size; done += piece.size()) {
     piece.resize(std::min(piece.size(), size - done));
     read(piece.data(), piece.size(), done);

@@ -13,7 +13,10 @@ class Pc2Writer : public CacheWriter {
       : mesh_(mesh), samples_(folder / Pc2Writer::file()) {}
 
   void add(const CacheFrame& frame) override {
-    if (samples_.count() == 0) first_frame_ = static_cast<float>(frame.number);
+    if (samples_.count() == 0) first_frame_ = frame.number;
+    if (samples_.count() == 1) frame_step_ = frame.number - first_frame_;
+    // A sample's place says its time: frames that were chosen unevenly play one after the other.
+    if (frame.number != first_frame_ + samples_.count() * frame_step_) frame_step_ = 1;
     samples_.add(frame.position);
   }
 
@@ -21,8 +24,8 @@ class Pc2Writer : public CacheWriter {
     std::string head("POINTCACHE2\0", 12);
     put<ByteOrder::little>(head, std::int32_t{1});
     put<ByteOrder::little>(head, std::int32_t{mesh_.layout.vertices()});
-    put<ByteOrder::little>(head, first_frame_);
-    put<ByteOrder::little>(head, 1.0f);
+    put<ByteOrder::little>(head, static_cast<float>(first_frame_));
+    put<ByteOrder::little>(head, static_cast<float>(frame_step_));
     put<ByteOrder::little>(head, samples_.count());
     samples_.write(head);
   }
@@ -32,7 +35,7 @@ class Pc2Writer : public CacheWriter {
  private:
   const CacheMesh& mesh_;
   PointSamples<ByteOrder::little> samples_;
-  float first_frame_ = 1.0f;
+  long first_frame_ = 1, frame_step_ = 1;
 };
 
 }  // namespace

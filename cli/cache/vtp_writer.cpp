@@ -5,21 +5,12 @@
 #include "base/atomic_file.h"
 #include "cli/cache/bytes.h"
 #include "cli/cache/cache_writer.h"
+#include "cli/page/report_page.h"
 
 namespace billow::cli {
 namespace {
 
 constexpr ByteOrder order = ByteOrder::little;
-
-// Names of bodies may hold what XML means something by.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const bool plain = c != '&' && c != '<' && c != '"';
-    result += plain ? std::string(1, c) : fmt::format("&#{};", static_cast<int>(c));
-  }
-  return result;
-}
 
 /// The arrays of one file: their elements in the XML, their bytes behind it.
 class Arrays {
@@ -66,7 +57,7 @@ class VtpWriter : public CacheWriter {
         "<AppendedData encoding=\"raw\">\n_{}\n</AppendedData>\n</VTKFile>\n",
         frame.time, frame.position.rows(), ends_.size(), piece, arrays.bytes());
     write_file_atomically(folder_ / name, text);
-    collection_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(name));
+    collection_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, html_escape(name));
   }
 
   void finish() override {

@@ -182,7 +182,7 @@ void add_study(CLI::App& app, Request& r) {
 
 // Of what is made of a run's frames.
 template <class Options>
-void add_run_options(CLI::App& command, Options& options, const std::string& default_name) {
+void add_folder_options(CLI::App& command, Options& options, const std::string& default_name) {
   command.add_option("DIR", options.folder, "Folder of a run")->required();
   command.add_option("--view", options.views, "View, or several side by side: textured,velocity (default: the first)")
       ->type_name("VIEWS");
@@ -195,7 +195,7 @@ void add_run_options(CLI::App& command, Options& options, const std::string& def
 
 void add_video(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("video", "Make a film of a run's frames: .mp4, .webm, .gif or .apng (by ffmpeg)");
-  add_run_options(c, r.video, ".mp4");
+  add_folder_options(c, r.video, ".mp4");
   c.add_option("--fps", r.video.fps, "Frames a second (default: the run's)")
       ->check(CLI::Range(0.01, 1000.0))
       ->type_name("N");
@@ -205,7 +205,7 @@ void add_video(CLI::App& app, Request& r) {
 
 void add_sheet(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("sheet", "Show frames of a run side by side on one page, with their times");
-  add_run_options(c, r.sheet, "_sheet.png");
+  add_folder_options(c, r.sheet, "_sheet.png");
   c.add_option("-n,--count", r.sheet.count, "Frames, evenly chosen (default: 12)")
       ->check(CLI::Range(1, 400))
       ->type_name("N");

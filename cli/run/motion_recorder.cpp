@@ -52,15 +52,12 @@ void MotionRecorder::add(double time, const sim::State& state) {
 // A row a frame; numbers read back to the bit.
 void MotionRecorder::finish() {
   AtomicFile output(folder_.file(RunFile::frame_table));
-  const auto append = [&](const std::string& line) {
-    if (!output.write(line.data(), line.size())) output.fail();
-  };
-  append(
+  output.append(
       "frame,time_s,kinetic_energy_J,potential_energy_J,linear_momentum_x_kg_m_s,linear_momentum_y_kg_m_s,"
       "linear_momentum_z_kg_m_s,angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s,"
       "largest_stretch,mean_stretch,touching_particles\n");
   for (const FrameRecord& record : report_.frames)
-    append(fmt::format("{},{},{}\n", record.frame, record.time, fmt::join(measures_of(record), ",")));
+    output.append(fmt::format("{},{},{}\n", record.frame, record.time, fmt::join(measures_of(record), ",")));
   output.commit();
 }
 

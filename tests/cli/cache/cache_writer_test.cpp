@@ -71,6 +71,20 @@ TEST_F(CacheFiles, Pc2) {
   for (int f = 0; f < 2; ++f) expect_positions(bytes, 32 + 72 * f, 12, false, frames_[f].position);
 }
 
+// Frames at even distances are that far apart for who plays them; others follow one another.
+TEST_F(CacheFiles, Pc2SaysHowFarApartItsFramesAre) {
+  const auto step_of = [&](const std::vector<long>& numbers) {
+    const auto writer = make_cache_writer(CacheFormat::pc2, folder_.path(), mesh_);
+    for (const long number : numbers) writer->add(frame_of(number));
+    writer->finish();
+    return number_at<float>(test::read_text(folder_.path() / "flag.pc2"), 24, false);
+  };
+  EXPECT_EQ(step_of({3}), 1.0f);
+  EXPECT_EQ(step_of({1, 6, 11, 16}), 5.0f);
+  EXPECT_EQ(step_of({1, 6, 7}), 1.0f);
+  EXPECT_EQ(step_of({1, 6, 7, 16}), 1.0f);
+}
+
 TEST_F(CacheFiles, Mdd) {
   const std::string bytes = written(CacheFormat::mdd, "flag.mdd");
   ASSERT_EQ(bytes.size(), 8u + 2 * 4 + 2 * 6 * 12);
