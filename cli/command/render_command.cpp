@@ -1,6 +1,7 @@
 // billow render: a scene's frames, strip, record and page.
 #include "base/process_start.h"
 #include "cli/command/commands.h"
+#include "cli/run/state_store.h"
 #include "cli/run/watched_scene.h"
 
 namespace billow::cli {
@@ -10,6 +11,7 @@ int render_command(const RenderOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides, progress);
   // What is wrong with these is found before the step is certified, which takes seconds.
   range_of(options, scene);
+  if (!options.from.empty()) check_stored_states(options.from);
   check_output_folder(output_of(options), existing_of(options), scene);
   progress.phase("springs");
   const Simulation simulation(scene);

@@ -74,6 +74,7 @@ int sheet_command(const SheetOptions& options) {
   const std::size_t columns =
       options.columns > 0 ? static_cast<std::size_t>(options.columns) : default_columns(chosen.size());
   render::write_png(file, render::draw_sheet(sheet_of(run, views, chosen, columns)));
+  Progress(ProgressStyle::plain).say(fmt::format("wrote {} ({} frames)", file.string(), chosen.size()));
   return exit_done;
 }
 

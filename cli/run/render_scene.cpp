@@ -52,12 +52,14 @@ std::vector<render::View> views_of(const RenderOptions& options, const Scene& sc
   return options.simulate_only ? std::vector<render::View>() : scene.render.views;
 }
 
-void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder) {
+void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, bool states_only) {
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
   const std::string strip =
       report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
-  progress.say(fmt::format("wrote {} images{}{}, run.json and index.html to {} in {}", report.images_written, kept,
-                           strip, folder.path().string(), time_taken(progress, report)));
+  const std::string main = states_only ? fmt::format("the states of {} frames", report.frames.size())
+                                       : fmt::format("{} images{}", report.images_written, kept);
+  progress.say(fmt::format("wrote {}{}, run.json and index.html to {} in {}", main, strip, folder.path().string(),
+                           time_taken(progress, report)));
 }
 
 // Several processes may draw frames of the same states into the same folder.
@@ -175,7 +177,7 @@ class SceneRun {
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
-    say_end(progress_, report, folder_);
+    say_end(progress_, report, folder_, options_.simulate_only);
   }
 
   const Run& run_;

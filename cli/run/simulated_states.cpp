@@ -89,8 +89,8 @@ RunFacts KeptStates::facts() const {
 StoredStates::StoredStates(const Run& run, StateStore store)
     : store_(std::move(store)), frames_(frame_schedule(run.scene, frame_count(run.scene))) {
   const std::string folder = store_.folder().string();
-  if (!store_.holds_this_run())
-    throw InputError(fmt::format("{}: there are no states; write them with 'billow simulate'", folder));
+  check_stored_states(store_.folder().parent_path());
+  store_.holds_this_run();
   record_ = store_.read_record();
   const long wanted = frame_count(run.scene);
   if (!record_.finished)

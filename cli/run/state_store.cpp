@@ -67,7 +67,8 @@ RunFacts facts_of(const Json& json) {
 Json read_json(const fs::path& file) {
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
-  if (!json.is_object()) throw InputError(fmt::format("{}: is no record of states; simulate again", file.string()));
+  if (!json.is_object() || !json.contains("motion"))
+    throw InputError(fmt::format("{}: is no record of states; simulate again", file.string()));
   return json;
 }
 
@@ -218,6 +219,13 @@ void StateStore::write_checkpoint(const sim::WatchedRun::Checkpoint& c) const {
                 {"by_cholesky", whole(c.solves.by_cholesky)},
                 {"failures", whole(c.solves.failures)}};
   write_npz(folder_ / checkpoint_name, npz);
+}
+
+void check_stored_states(const fs::path& run) {
+  std::error_code error;
+  const fs::path folder = run / StateStore::folder_name;
+  if (!fs::is_regular_file(folder / StateStore::record_name, error))
+    throw InputError(fmt::format("{}: there are no states; write them with 'billow simulate'", folder.string()));
 }
 
 namespace {

@@ -60,6 +60,9 @@ class StateStore {
   int particles_;
 };
 
+/// Throws InputError when `run`, a folder of a run, holds no states. Changes nothing.
+void check_stored_states(const std::filesystem::path& run);
+
 /// Removes the store's files from `folder`, and the folder when nothing else is in it.
 void remove_states(const std::filesystem::path& folder);
 

@@ -226,7 +226,7 @@ const Section camera{"camera",
                       {"turntable", above_0(1e5, "s"), {"none"}},
                       {"follow"}}};
 
-const Section camera_key{"the key",
+const Section camera_key{"the camera's key",
                          {{"time", between(0, 1e5, "s")},
                           {"eye", within(1e6, "m")},
                           {"look_at", within(1e6, "m")},

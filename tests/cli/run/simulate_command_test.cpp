@@ -98,6 +98,7 @@ class Simulate : public testing::Test {
 TEST_F(Simulate, KeepsEveryFramesStateAndDrawsNothing) {
   const ToolResult result = run({"simulate", "-o", "sim"});
   ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("wrote the states of 25 frames, velocity_strip.png (67 columns), run.json"));
   EXPECT_FALSE(fs::exists(at("sim/textured")));
   EXPECT_TRUE(fs::exists(at("sim/velocity_strip.png")));
   EXPECT_EQ(record("sim")["status"], "done");
@@ -205,13 +206,16 @@ TEST_F(Simulate, SaysWhatDoesNotFit) {
   EXPECT_THAT(refusal({"-D", "duration=1.2"}, 4), HasSubstr("there are 25 frames, and the scene has 30; go on with"));
   EXPECT_THAT(refusal({"--frames", "26"}, 4), HasSubstr("--frames 26: the scene has frames 1 to 25"));
   EXPECT_THAT(refusal({"--resume"}, 2), HasSubstr("--from"));
-  EXPECT_EQ(run({"render", "--from", "none", "-o", "film"}).status, 4);
+  EXPECT_EQ(run({"render", "--from", "none"}).status, 4);
+  EXPECT_FALSE(fs::exists(at("none")));
   // Other pictures of the same motion are welcome, elsewhere.
   EXPECT_EQ(run({"render", "--from", "sim", "-o", "large", "-D", "render.size=[128, 96]", "-D", "strip=none"}).status,
             0);
   EXPECT_EQ(run({"render", "--from", "sim", "-D", "render.size=[128, 96]"}).status, 6);
   folder_.write("sim/states/frame_0003.npz", "PK damaged");
   EXPECT_THAT(refusal({}, 4), HasSubstr("frame_0003.npz"));
+  folder_.write("sim/states/states.json", "{}");
+  EXPECT_THAT(refusal({}, 4), HasSubstr("is no record of states; simulate again"));
 }
 
 TEST_F(Simulate, OverwritingRemovesStatesAndNothingElse) {
