@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <exception>
@@ -89,6 +90,17 @@ long resident_memory() {
   return file ? resident * (sysconf(_SC_PAGESIZE) / 1024) : 0;
 }
 
+// How many finished images may wait for an encoder: two for each, as far as a gibibyte holds them. A frame of the data
+// view takes 24 floats a pixel.
+std::size_t waiting_images(const render::Settings& settings, const std::vector<render::View>& views, int threads) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 30, fewest = 2;
+  const bool has_data = std::find(views.begin(), views.end(), render::View::data) != views.end();
+  const std::size_t pixel = has_data ? 24 * sizeof(float) : 4;
+  const std::size_t image =
+      pixel * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+  return std::max(fewest, std::min(static_cast<std::size_t>(2 * threads), most_bytes / image));
+}
+
 /// One run of make_film.
 class Film {
  public:
@@ -102,7 +114,7 @@ class Film {
         threads_(threads),
         progress_(progress),
         setting_{run, folder, plan.recorded, run.scene.render.velocity_range.value_or(bounds.velocity_scale)},
-        images_(static_cast<std::size_t>(2 * threads)),
+        images_(waiting_images(run.scene.render, plan.views, threads)),
         error_([this] { snapshots_.abort(), images_.abort(); }),
         report_{.frames = FrameLog(folder.file(RunFile::record))} {}
 
