@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t pixel_bytes = 3;
 constexpr int tile_columns = 16;  // one row of a tile is what a read of the spool finds side by side
 constexpr std::size_t tile_row_bytes = tile_columns * pixel_bytes;
-constexpr std::size_t block_bytes = std::size_t{512} << 10;  // bounds the memory of putting rows together
+constexpr std::size_t block_bytes = std::size_t{256} << 10;  // bounds the memory of putting rows together
 
 }  // namespace
 
