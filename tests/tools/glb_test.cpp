@@ -73,7 +73,7 @@ TEST_F(GlbOfARun, IsTheSameForAnyNumberOfThreadsAndListed) {
 TEST_F(GlbOfARun, TurnsOnItsPage) {
   const fs::path film = render("drape.yaml", "film", drape("0.6")).parent_path().parent_path();
   fs::copy_file(fs::path(BILLOW_SOURCE_DIR) / "tests/tools/model_visit.html", film / "model_visit.html");
-  const test::Visit visit = test::visit(film, "model_visit.html");
+  const test::Visit visit = test::visit(film, "model_visit.html", 120.0);
   const json& seen = visit.result;
   ASSERT_TRUE(seen.contains("ended")) << seen;
   EXPECT_GT(seen["drawn"], 0.02);   // share of the picture's pixels that something covers
