@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sim/body/cloth.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 
 namespace billow::bench {
 

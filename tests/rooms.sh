@@ -3,12 +3,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 order=(base
-  sim/mesh sim/body sim/levels sim/linear sim/pass sim/force sim/filter sim/step sim/contact sim/limit sim/drawn
+  sim/mesh sim/import sim/body sim/levels sim/linear sim/pass sim/force sim/filter sim/step sim/contact sim/limit sim/drawn
   render/image render/gl render/paper render/frame
   cli/text cli/yaml cli/scene cli/page cli/cache cli/run cli/study cli/command)
 # What a library may not see although it stands before it: the scene steps without pictures, the pictures see a body's
 # drawn surface and nothing else of the physics.
-forbidden=('cli/(text|yaml|scene) render/(gl|paper|frame)' 'render/[a-z]+ sim/(mesh|body|levels|linear|pass|force|filter|step|limit)')
+forbidden=('cli/(text|yaml|scene) render/(gl|paper|frame)' 'render/[a-z]+ sim/(mesh|import|body|levels|linear|pass|force|filter|step|limit)')
 
 declare -A place
 for k in "${!order[@]}"; do place[${order[$k]}]=$k; done

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "render/frame/body_mesh.h"
 #include "render/frame/normals.h"
 #include "render/image/png.h"
 
@@ -51,7 +52,7 @@ void pad(std::string& bytes, char filler) { bytes.resize((bytes.size() + 3) / 4 
 /// Gathers the document and its binary chunk.
 class Document {
  public:
-  explicit Document(const std::vector<GlbKey>& keys) : keys_(keys) {
+  Document(const std::vector<GlbKey>& keys, const Eigen::Vector3d& origin) : keys_(keys), origin_(origin) {
     json_ = {{"asset", {{"version", "2.0"}, {"generator", "billow"}}}, {"scene", 0}};
     json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
   }
@@ -64,8 +65,9 @@ class Document {
   int accessor(const void* data, std::size_t size, Json about, int target = 0);
   template <class Rows>
   int attribute(const Rows& rows, bool bounded);
-  int indices(const sim::Surface& surface);
-  int material(const GlbPart& part);
+  int indices(const sim::Surface& surface, const render::TriangleRange& range);
+  int material(const std::string& name, const render::Finish& finish);
+  Json primitives(const GlbPart& part, const Json& attributes, const Json& moves);
   int texture(const render::Image& image);
   Json targets(const GlbPart& part, std::size_t index, const Shape& base);
   void animate(int node);
@@ -75,6 +77,7 @@ class Document {
   }
 
   const std::vector<GlbKey>& keys_;
+  Eigen::Vector3d origin_;
   Json json_;
   std::string binary_;
   std::vector<const render::Image*> images_;
@@ -107,9 +110,11 @@ int Document::attribute(const Rows& rows, bool bounded) {
   return accessor(rows.data(), sizeof(float) * static_cast<std::size_t>(rows.size()), std::move(about), vertex_data);
 }
 
-int Document::indices(const sim::Surface& surface) {
+// Corners of the triangles of one material.
+int Document::indices(const sim::Surface& surface, const render::TriangleRange& range) {
   const auto write = [&]<class Index>(Index, int type) {
-    const Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor> list = surface.triangle.cast<Index>();
+    const Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor> list =
+        surface.triangle.middleRows(range.first, range.count).cast<Index>();
     return accessor(list.data(), sizeof(Index) * static_cast<std::size_t>(list.size()),
                     {{"componentType", type}, {"count", list.size()}, {"type", "SCALAR"}}, index_data);
   };
@@ -132,15 +137,16 @@ int Document::texture(const render::Image& image) {
   return add_to("textures", {{"sampler", 0}, {"source", index}});
 }
 
-int Document::material(const GlbPart& part) {
-  const render::DrawnBody& drawn = part.drawn;
+int Document::material(const std::string& name, const render::Finish& finish) {
+  const Eigen::Vector3f& colour = finish.colour;
   Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
-  if (drawn.texture.pixels.empty())
-    surface["baseColorFactor"] = Json::array({drawn.colour.x(), drawn.colour.y(), drawn.colour.z(), 1.0});
-  else
-    surface["baseColorTexture"] = {{"index", texture(drawn.texture)}};
-  return add_to("materials",
-                {{"name", part.name}, {"pbrMetallicRoughness", std::move(surface)}, {"doubleSided", true}});
+  if (finish.texture.pixels.empty() || colour != Eigen::Vector3f::Ones() || finish.opacity < 1.0f)
+    surface["baseColorFactor"] = Json::array({colour.x(), colour.y(), colour.z(), finish.opacity});
+  if (!finish.texture.pixels.empty()) surface["baseColorTexture"] = {{"index", texture(finish.texture)}};
+  Json entry = {{"name", name}, {"pbrMetallicRoughness", std::move(surface)}, {"doubleSided", true}};
+  if (finish.alpha == AlphaMode::cut_out) entry["alphaMode"] = "MASK", entry["alphaCutoff"] = finish.cutoff;
+  if (finish.alpha == AlphaMode::blend) entry["alphaMode"] = "BLEND";
+  return add_to("materials", std::move(entry));
 }
 
 // Displacements from the first key. Empty where the part never moves.
@@ -178,28 +184,41 @@ void Document::animate(int node) {
   json_["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
 }
 
+// One primitive for each finish, all over the same vertices.
+Json Document::primitives(const GlbPart& part, const Json& attributes, const Json& moves) {
+  Json list = Json::array();
+  for (std::size_t m = 0; m < part.drawn.finish.size(); ++m) {
+    const render::TriangleRange range = render::triangles_of(part.drawn.surface, static_cast<int>(m));
+    if (range.count == 0) continue;
+    Json primitive = {{"attributes", attributes}, {"indices", indices(part.drawn.surface, range)}};
+    const bool several = part.drawn.finish.size() > 1;
+    primitive["material"] =
+        material(several ? fmt::format("{}_{}", part.name, m + 1) : part.name, part.drawn.finish[m]);
+    if (!moves.empty()) primitive["targets"] = moves;
+    list.push_back(std::move(primitive));
+  }
+  return list;
+}
+
 void Document::add(const GlbPart& part, std::size_t index) {
   const sim::Surface& surface = part.drawn.surface;
   const Shape base = shape_of(surface, keys_.front().positions[index]);
   Rows2 uv = surface.uv;
   uv.col(1) = 1.0f - uv.col(1).array();  // glTF's v is down
-  Json primitive;
-  primitive["attributes"] = {{"POSITION", attribute(base.position, true)},
-                             {"NORMAL", attribute(base.normal, false)},
-                             {"TEXCOORD_0", attribute(uv, false)}};
-  primitive["indices"] = indices(surface);
-  primitive["material"] = material(part);
+  Json attributes = {{"POSITION", attribute(base.position, true)},
+                     {"NORMAL", attribute(base.normal, false)},
+                     {"TEXCOORD_0", attribute(uv, false)}};
+  if (surface.colour.rows() > 0) attributes["COLOR_0"] = attribute(Rows3(surface.colour), false);
   Json mesh = {{"name", part.name}, {"extras", {{"role", part.role}}}};
   const Json moves = targets(part, index, base);
-  if (!moves.empty()) {
-    primitive["targets"] = moves;
-    for (std::size_t k = 1; k < keys_.size(); ++k)
-      mesh["extras"]["targetNames"].push_back(fmt::format("{:.4f} s", keys_[k].time));
-  }
-  mesh["primitives"].push_back(std::move(primitive));
-  const int node = add_to("nodes", {{"name", part.name}, {"mesh", add_to("meshes", std::move(mesh))}});
-  json_["scenes"][0]["nodes"].push_back(node);
-  if (!moves.empty()) animate(node);
+  for (std::size_t k = 1; k < keys_.size() && !moves.empty(); ++k)
+    mesh["extras"]["targetNames"].push_back(fmt::format("{:.4f} s", keys_[k].time));
+  mesh["primitives"] = primitives(part, attributes, moves);
+  Json node = {{"name", part.name}, {"mesh", add_to("meshes", std::move(mesh))}};
+  if (!origin_.isZero(0.0)) node["translation"] = {origin_.x(), origin_.y(), origin_.z()};
+  const int number = add_to("nodes", std::move(node));
+  json_["scenes"][0]["nodes"].push_back(number);
+  if (!moves.empty()) animate(number);
 }
 
 std::string Document::bytes() {
@@ -222,8 +241,9 @@ std::string Document::bytes() {
 
 }  // namespace
 
-std::string glb_file(const std::vector<GlbPart>& parts, const std::vector<GlbKey>& keys) {
-  Document document(keys);
+std::string glb_file(const std::vector<GlbPart>& parts, const std::vector<GlbKey>& keys,
+                     const Eigen::Vector3d& origin) {
+  Document document(keys, origin);
   for (std::size_t p = 0; p < parts.size(); ++p) document.add(parts[p], p);
   return document.bytes();
 }

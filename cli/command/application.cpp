@@ -41,6 +41,7 @@ std::vector<FrameSpan> parse_frame_list(const std::string& text) {
 struct Request {
   RenderOptions render;
   SceneOptions scene;
+  MeshOptions mesh;
   StabilityOptions stability;
   FilterCommandOptions filter;
   CompareOptions compare;
@@ -121,6 +122,14 @@ void add_scene_command(CLI::App& app, Request& r, const std::string& name, const
     for (const std::string& text : r.overrides) r.scene.overrides.push_back(parse_override(text));
     r.command = [&r, command] { return command(r.scene); };
   });
+}
+
+void add_mesh(CLI::App& app, Request& r) {
+  CLI::App& c =
+      *app.add_subcommand("mesh", "Look at a mesh file: counts, size, pieces, borders, what it has and lacks");
+  c.add_option("FILE", r.mesh.mesh, "Mesh file (.obj, .off, .stl, .ply, .gltf or .glb)")->required();
+  c.add_flag("--json", r.mesh.json, "Print JSON");
+  c.final_callback([&r] { r.command = [&r] { return mesh_command(r.mesh); }; });
 }
 
 void add_stability(CLI::App& app, Request& r) {
@@ -223,6 +232,7 @@ void add_commands(CLI::App& app, Request& r) {
   add_simulate(app, r);
   add_scene_command(app, r, "check", "Validate a scene without simulating it; print it with every default", false,
                     check_command);
+  add_mesh(app, r);
   add_scene_command(app, r, "structure", "Print the particles and springs of a scene", true, structure_command);
   add_stability(app, r);
   add_filter(app, r);

@@ -19,6 +19,13 @@ struct SceneOptions {
   bool json = false;
 };
 int check_command(const SceneOptions& options);
+
+struct MeshOptions {
+  std::filesystem::path mesh;
+  bool json = false;
+};
+int mesh_command(const MeshOptions& options);
+
 int structure_command(const SceneOptions& options);
 
 struct StabilityOptions {

@@ -37,11 +37,14 @@
     layout(location = 4) in vec3 normal_before;
     layout(location = 5) in vec3 position_after;
     layout(location = 6) in vec3 normal_after;
+    layout(location = 7) in vec3 own_colour;
     uniform mat4 to_clip;
     uniform float share;
     out vec3 place, normal;
     out vec2 uv;
+    out vec3 tint;
     void main() {
+      tint = own_colour;
       place = base_position + mix(position_before, position_after, share);
       normal = base_normal + mix(normal_before, normal_after, share);
       uv = base_uv;
@@ -51,14 +54,17 @@
     precision highp float;
     in vec3 place, normal;
     in vec2 uv;
+    in vec3 tint;
     uniform vec3 eye, centre, key, colour;
-    uniform float radius;
+    uniform float radius, opacity, hole_below;
     uniform bool textured;
     uniform sampler2D picture;
     out vec4 pixel;
     void main() {
       vec3 n = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0), v = normalize(eye - place);
-      vec3 base = textured ? texture(picture, uv).rgb : colour;
+      vec4 texel = textured ? texture(picture, uv) : vec4(1.0);
+      if (texel.a * opacity < hole_below) discard;
+      vec3 base = texel.rgb * colour * tint;
       vec3 sky = mix(vec3(0.30, 0.28, 0.26), vec3(0.62, 0.66, 0.72), 0.5 + 0.5 * n.y);
       float gloss = 0.06 * pow(max(dot(n, normalize(key + v)), 0.0), 24.0);
       vec3 light = base * (sky + 0.85 * max(dot(n, key), 0.0)) + gloss;
@@ -111,19 +117,29 @@
   function load(gl, file, drawn) {
     const numbers = (index) => buffer_of(gl, gl.ARRAY_BUFFER, file.data(index));
     const pictures = (file.json.textures || []).map((_, index) => picture_of(gl, file, index, drawn));
-    return file.json.meshes.map((mesh) => {
-      const part = mesh.primitives[0], surface = file.json.materials[part.material].pbrMetallicRoughness;
-      const indices = file.accessor(part.indices);
-      return {
-        base: ["POSITION", "NORMAL", "TEXCOORD_0"].map((name) => numbers(part.attributes[name])),
-        targets: (part.targets || []).map((target) => [numbers(target.POSITION), numbers(target.NORMAL)]),
-        indices: buffer_of(gl, gl.ELEMENT_ARRAY_BUFFER, file.data(part.indices)),
-        count: indices.count,
-        type: indices.componentType,
-        colour: (surface.baseColorFactor || [1, 1, 1]).slice(0, 3),
-        picture: surface.baseColorTexture && pictures[surface.baseColorTexture.index],
-      };
+    return file.json.meshes.flatMap((mesh) => {
+      // All primitives of a mesh are over the same vertices.
+      const first = mesh.primitives[0];
+      const base = ["POSITION", "NORMAL", "TEXCOORD_0"].map((name) => numbers(first.attributes[name]));
+      const targets = (first.targets || []).map((target) => [numbers(target.POSITION), numbers(target.NORMAL)]);
+      const tint = "COLOR_0" in first.attributes ? numbers(first.attributes.COLOR_0) : null;
+      return mesh.primitives.map((part) => part_of(gl, file, part, pictures, { base, targets, tint }));
     });
+  }
+
+  function part_of(gl, file, part, pictures, shape) {
+    const material = file.json.materials[part.material], surface = material.pbrMetallicRoughness;
+    const indices = file.accessor(part.indices), factor = surface.baseColorFactor || [1, 1, 1, 1];
+    return {
+      ...shape,
+      indices: buffer_of(gl, gl.ELEMENT_ARRAY_BUFFER, file.data(part.indices)),
+      count: indices.count,
+      type: indices.componentType,
+      colour: factor.slice(0, 3),
+      opacity: factor[3],
+      hole_below: material.alphaMode === "MASK" ? material.alphaCutoff : material.alphaMode === "BLEND" ? 1 / 512 : 0,
+      picture: surface.baseColorTexture && pictures[surface.baseColorTexture.index],
+    };
   }
 
   function key_times(file) {
@@ -203,10 +219,10 @@
     return { k, share: times.length > 1 ? clamp((time - times[k]) / (times[k + 1] - times[k]), 0, 1) : 0 };
   }
 
-  function bind(gl, location, buffer, size) {
+  function bind(gl, location, buffer, size, otherwise = 0) {
     if (!buffer) {
       gl.disableVertexAttribArray(location);
-      gl.vertexAttrib3f(location, 0, 0, 0);
+      gl.vertexAttrib3f(location, otherwise, otherwise, otherwise);
       return;
     }
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
@@ -219,7 +235,10 @@
     part.base.forEach((buffer, location) => bind(gl, location, buffer, location === 2 ? 2 : 3));
     const [before, after] = [part.targets[k - 1] || [], part.targets[k] || []];
     [before[0], before[1], after[0], after[1]].forEach((buffer, slot) => bind(gl, 3 + slot, buffer, 3));
+    bind(gl, 7, part.tint, 3, 1);
     gl.uniform3fv(uniform("colour"), part.colour);
+    gl.uniform1f(uniform("opacity"), part.opacity);
+    gl.uniform1f(uniform("hole_below"), part.hole_below);
     gl.uniform1i(uniform("textured"), part.picture ? 1 : 0);
     gl.bindTexture(gl.TEXTURE_2D, part.picture || null);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, part.indices);

@@ -29,11 +29,12 @@ sim::Mesh square(const sim::HalfSpace& plane, const Eigen::AlignedBox3d& bodies)
   sim::Mesh mesh;
   mesh.position.resize(4, 3);
   mesh.uv.resize(1);
+  const Eigen::Vector2d whole_tiles = 1024.0 * (middle / 1024.0).array().floor();  // small numbers for single precision
   const Eigen::Vector2d corners[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (int c = 0; c < 4; ++c) {
     const Eigen::Vector2d place = middle + half * corners[c];
     mesh.position.row(c) = plane.point + axes * place;
-    mesh.uv[0][c] = place.cast<float>();
+    mesh.uv[0][c] = (place - whole_tiles).cast<float>();
   }
   mesh.face = {{0, 1, 2, 3}};
   return mesh;
@@ -49,20 +50,15 @@ DrawnCollider::DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d
   surface_ = sim::build_surface(drawn);
 }
 
-sim::SurfaceState DrawnCollider::carried(const Eigen::MatrixX3d& points, double time) const {
-  const Eigen::Isometry3d place = spec_.solid.motion.at(time);
+sim::SurfaceState DrawnCollider::carried(const Eigen::MatrixX3d& points, double time,
+                                         const Eigen::Vector3d& origin) const {
+  const Eigen::Affine3d place = Eigen::Translation3d(-origin) * Eigen::Affine3d(spec_.solid.motion.at(time));
   const Eigen::Affine3d velocity = spec_.solid.motion.velocity_at(time);
   const auto mapped = [&](const auto& map) -> Eigen::MatrixX3f {
     const Eigen::MatrixX3d rows = points * map.linear().transpose();
     return (rows.rowwise() + map.translation().transpose()).template cast<float>();
   };
   return {mapped(place), mapped(velocity)};
-}
-
-sim::SurfaceState DrawnCollider::at(double time, const Eigen::RowVector3f& path) const {
-  sim::SurfaceState state = carried(position_, time);
-  state.position.rowwise() -= path;
-  return state;
 }
 
 Eigen::AlignedBox3d DrawnCollider::framed(const sim::SurfaceState& state, const Eigen::AlignedBox3d& bodies) const {

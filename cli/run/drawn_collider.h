@@ -16,13 +16,14 @@ class DrawnCollider {
   /// start, its texture once over every square metre.
   DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d& bodies);
 
-  render::DrawnBody drawn() const { return {surface_, spec_.texture, spec_.colour, spec_.solid.name}; }
+  render::DrawnBody drawn() const { return {surface_, spec_.finish, spec_.solid.name}; }
   /// Its mesh before the motion, as its file has it, or the square.
   const sim::Mesh& mesh() const { return spec_.solid.half_space ? square_ : spec_.solid.mesh; }
-  /// Where its motion has points (p x 3) [m] of it at `time` [s].
-  sim::SurfaceState carried(const Eigen::MatrixX3d& points, double time) const;
-  /// At `time` [s], seen from a camera that has come `path` [m].
-  sim::SurfaceState at(double time, const Eigen::RowVector3f& path) const;
+  /// Where its motion has points (p x 3) [m] of it at `time` [s], seen from `origin` [m].
+  sim::SurfaceState carried(const Eigen::MatrixX3d& points, double time,
+                            const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) const;
+  /// The same of its surface.
+  sim::SurfaceState at(double time, const Eigen::Vector3d& origin) const { return carried(position_, time, origin); }
   /// What of it a picture of `bodies` [m] should show, itself being at `state`: a small collider that is near them
   /// whole, of a larger one what is near them, of a plane nothing. A table must not make the cloth on it a dot.
   Eigen::AlignedBox3d framed(const sim::SurfaceState& state, const Eigen::AlignedBox3d& bodies) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "render/image/srgb.h"
 #include "sim/body/stretch.h"
 
 namespace billow::cli {
@@ -12,21 +13,51 @@ bool shows_strain(const std::vector<render::View>& views) {
   return std::find(views.begin(), views.end(), render::View::data) != views.end();
 }
 
+// What lies within this many of its own sizes from the world's zero is drawn from there.
+constexpr double far_away = 100.0;
+
+Eigen::Vector3d origin_for(const Eigen::MatrixX3d& position) {
+  const Eigen::Vector3d low = position.colwise().minCoeff(), high = position.colwise().maxCoeff();
+  const Eigen::Vector3d middle = 0.5 * (low + high);
+  const bool far = middle.cwiseAbs().maxCoeff() > far_away * (high - low).norm();
+  return far ? middle : Eigen::Vector3d::Zero();
+}
+
+// The surface in the colours of its mesh's vertices, where the body shows them.
+sim::Surface painted(sim::Surface surface, const BodySpec& body) {
+  if (!body.shows_vertex_colours) return surface;
+  surface.colour = body.mesh.colour(surface.point, Eigen::all);
+  if (!body.mesh.linear_colour)
+    surface.colour = surface.colour.unaryExpr([](float c) { return static_cast<float>(render::srgb_to_linear(c)); });
+  return surface;
+}
+
+// The box around what of a body a picture should show.
+Eigen::AlignedBox3d framed_box(const sim::SurfaceState& surface, const std::vector<int>& framed_points) {
+  if (framed_points.empty()) return box_of(surface);
+  return box_of({surface.position(framed_points, Eigen::all), {}});
+}
+
 }  // namespace
 
 DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation)
-    : scene_(scene), simulation_(simulation), wants_strain_(shows_strain(scene.render.views)) {
+    : scene_(scene),
+      simulation_(simulation),
+      origin_(origin_for(simulation.initial_state().position)),
+      wants_strain_(shows_strain(scene.render.views)) {
   for (const BodySpec& body : scene.bodies) skin_.push_back(skin_of(body));
   const Eigen::AlignedBox3d start = box(simulation.initial_state());
   for (const ColliderSpec& collider : scene.colliders) collider_.emplace_back(collider, start);
-  if (scene.motes > 0) motes_.emplace(scene.motes, simulation.initial_state().position, scene.water.velocity);
+  if (scene.motes > 0)
+    motes_.emplace(scene.motes, simulation.initial_state().position.rowwise() - origin_.transpose(),
+                   scene.water.velocity);
 }
 
 std::vector<render::DrawnBody> DrawnScene::solids() const {
   std::vector<render::DrawnBody> drawn;
   for (std::size_t b = 0; b < skin_.size(); ++b)
     drawn.push_back(
-        {skin_[b].surface, scene_.bodies[b].texture, scene_.bodies[b].colour, simulation_.structure().body[b].name});
+        {painted(skin_[b].surface, scene_.bodies[b]), scene_.bodies[b].finish, simulation_.structure().body[b].name});
   for (const DrawnCollider& collider : collider_) drawn.push_back(collider.drawn());
   return drawn;
 }
@@ -37,20 +68,19 @@ std::vector<render::DrawnBody> DrawnScene::bodies() const {
   return drawn;
 }
 
-std::vector<sim::SurfaceState> DrawnScene::solids_from(const Eigen::RowVector3f& path, const sim::State& state) const {
-  std::vector<sim::SurfaceState> states = skins_at(state);
-  for (sim::SurfaceState& skin : states) skin.position.rowwise() -= path;
-  for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, path));
+std::vector<sim::SurfaceState> DrawnScene::solids_from(const Eigen::Vector3d& origin, const sim::State& state) const {
+  std::vector<sim::SurfaceState> states = skins_at(state, origin);
+  for (const DrawnCollider& collider : collider_) states.push_back(collider.at(state.time, origin));
   return states;
 }
 
 std::vector<sim::SurfaceState> DrawnScene::solid_surfaces(const sim::State& state) const {
-  return solids_from(Eigen::RowVector3f::Zero(), state);
+  return solids_from(origin_, state);
 }
 
 std::vector<sim::SurfaceState> DrawnScene::surfaces(const sim::State& state) const {
-  const Eigen::RowVector3f path = camera_path(state).transpose().cast<float>();
-  std::vector<sim::SurfaceState> states = solids_from(path, state);
+  const Eigen::Vector3d path = camera_path(state);
+  std::vector<sim::SurfaceState> states = solids_from(origin_ + path, state);
   if (wants_strain_) add_strain(state, states);
   if (motes_) states.push_back(motes_->at(state.time, path));
   return states;
@@ -63,21 +93,23 @@ void DrawnScene::add_strain(const sim::State& state, std::vector<sim::SurfaceSta
     surfaces[b].strain = sim::at_points(skin_[b], structure.body[b], strain);
 }
 
-std::vector<sim::SurfaceState> DrawnScene::skins_at(const sim::State& state) const {
+std::vector<sim::SurfaceState> DrawnScene::skins_at(const sim::State& state, const Eigen::Vector3d& origin) const {
   std::vector<sim::SurfaceState> states;
   for (std::size_t b = 0; b < skin_.size(); ++b)
-    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state));
+    states.push_back(sim::pose(skin_[b], simulation_.structure().body[b], state, origin));
   return states;
 }
 
 Eigen::AlignedBox3d DrawnScene::box(const sim::State& state) const {
   const std::vector<sim::SurfaceState> drawn = surfaces(state);
   Eigen::AlignedBox3d bodies;
-  for (std::size_t b = 0; b < skin_.size(); ++b) bodies.extend(box_of(drawn[b]));
+  for (std::size_t b = 0; b < skin_.size(); ++b) bodies.extend(framed_box(drawn[b], scene_.bodies[b].framed_points));
   Eigen::AlignedBox3d box = bodies;
   for (std::size_t c = 0; c < collider_.size(); ++c) box.extend(collider_[c].framed(drawn[skin_.size() + c], bodies));
-  return box;
+  return box.translate(origin_);
 }
+
+render::Settings DrawnScene::settings() const { return render::seen_from(scene_.render, origin_); }
 
 Eigen::Vector3d DrawnScene::camera_velocity(const sim::State& state) const { return followed_mean(state.velocity); }
 

@@ -172,7 +172,8 @@ class Film {
 
   void draw() {
     std::optional<render::MeshRenderer> renderer;  // no GL where nothing is drawn
-    if (!plan_.views.empty()) renderer.emplace(run_.scene.render, run_.drawn.bodies(), bounds_, threads_);
+    if (!plan_.views.empty())
+      renderer.emplace(run_.drawn.settings(), run_.drawn.bodies(), bounds_from_origin(), threads_);
     if (renderer) report_.gl = renderer->description();
     report_.velocity_range = setting_.velocity_range;
     progress_.begin(renderer ? "render" : "simulate", plan_.drawn.count());
@@ -184,6 +185,12 @@ class Film {
     }
     progress_.end();
     report_.memory.end = resident_memory();
+  }
+
+  render::RunBounds bounds_from_origin() const {
+    render::RunBounds bounds = bounds_;
+    bounds.box.translate(-run_.drawn.origin());
+    return bounds;
   }
 
   // False when nobody encodes any more.

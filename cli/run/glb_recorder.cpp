@@ -43,7 +43,7 @@ void GlbRecorder::add(double time, const sim::State& state) {
 // A page that is opened from its file may not read another file, but may load a script.
 void GlbRecorder::finish() {
   if (keys_.empty()) return;
-  const std::string bytes = glb_file(parts_of(setting_.run), keys_);
+  const std::string bytes = glb_file(parts_of(setting_.run), keys_, setting_.run.drawn.origin());
   const std::filesystem::path file = setting_.folder.file(RunFile::glb);
   make_folder(file.parent_path());
   write_file_atomically(file, bytes);

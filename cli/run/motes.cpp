@@ -47,7 +47,7 @@ Motes::Motes(int count, const Eigen::MatrixX3d& position, const Eigen::Vector3d&
 render::DrawnBody Motes::drawn() const {
   const auto count = static_cast<int>(middle_.rows());
   render::DrawnBody body;
-  body.colour = {0.75f, 0.85f, 0.85f};
+  body.finish[0].colour = {0.75f, 0.85f, 0.85f};
   body.name = "motes";
   body.surface.triangle.resize(faces * count, 3);
   for (int m = 0; m < count; ++m)
@@ -57,9 +57,9 @@ render::DrawnBody Motes::drawn() const {
   return body;
 }
 
-sim::SurfaceState Motes::at(double time, const Eigen::RowVector3f& path) const {
+sim::SurfaceState Motes::at(double time, const Eigen::Vector3d& path) const {
   const Eigen::Array<float, corners, 3> shape = radius_ * octahedron().array();
-  const Eigen::RowVector3f drift = static_cast<float>(time) * current_ - path;
+  const Eigen::RowVector3f drift = static_cast<float>(time) * current_ - path.transpose().cast<float>();
   sim::SurfaceState state;
   state.position.resize(corners * middle_.rows(), 3);
   state.velocity = current_.replicate(corners * middle_.rows(), 1);

@@ -17,7 +17,7 @@ class Motes {
 
   render::DrawnBody drawn() const;
   /// At `time` [s], seen from a camera that has come `path` [m].
-  sim::SurfaceState at(double time, const Eigen::RowVector3f& path) const;
+  sim::SurfaceState at(double time, const Eigen::Vector3d& path) const;
 
  private:
   Eigen::AlignedBox3f box_;

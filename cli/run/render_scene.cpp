@@ -21,6 +21,7 @@
 #include "cli/run/run_warnings.h"
 #include "cli/run/simulated_states.h"
 #include "cli/run/spooled_states.h"
+#include "cli/scene/mesh_warnings.h"
 #include "cli/scene/step_warnings.h"
 
 namespace billow::cli {
@@ -85,7 +86,9 @@ class SceneRun {
 
   int run() {
     say_start(progress_, run_);
-    warnings_ = step_warnings(run_.simulation.structure(), run_.choice);
+    warnings_ = mesh_warnings(run_.scene);
+    for (std::string& warning : step_warnings(run_.simulation.structure(), run_.choice))
+      warnings_.push_back(std::move(warning));
     say(progress_, warnings_);
     const bool keeps = !draws_stored(options_) && keeps_states(options_, folder_);
     const nlohmann::json before = earlier_record(folder_.path());

@@ -65,6 +65,7 @@ struct ClothSpec : MeshBody {
 
 struct SoftSpec : MeshBody {
   sim::SoftBodyOptions options;
+  bool close_holes = false;  // of its mesh
 
   bool takes_spectrum() const { return false; }
   std::optional<double> most_strain() const { return std::nullopt; }

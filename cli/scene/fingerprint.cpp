@@ -49,7 +49,8 @@ NodePtr each_without(const NodePtr& list, const Keys& keys) {
 NodePtr motion_of(const NodePtr& effective) {
   const NodePtr motion = without(effective, {"duration", "caches", "strip", "spectrum"});
   for (Entry& entry : motion->entries) {
-    if (among(entry.key, {"bodies", "colliders"})) entry.value = each_without(entry.value, {"texture", "colour"});
+    if (among(entry.key, {"bodies", "colliders"}))
+      entry.value = each_without(entry.value, {"texture", "colour", "alpha"});
     if (entry.key == "water") entry.value = without(entry.value, {"motes"});
     if (entry.key != "render") continue;
     const Entry* ground = entry.value->find("ground");
@@ -65,6 +66,9 @@ std::string hash_of(const Scene& scene, const std::string& record, bool looks) {
   const auto add = [&](const std::filesystem::path& mesh_file, const sim::Mesh& mesh, const Look& look) {
     add_mesh(hash, mesh_file, mesh);
     if (looks && !look.texture_file.empty()) hash.add_file(look.texture_file);
+    if (looks && look.texture_file.empty())
+      for (const render::Finish& finish : look.finish)
+        hash.add(bytes_of(finish.texture.pixels.data(), finish.texture.pixels.size()));
   };
   for (const BodySpec& body : scene.bodies) add(body.mesh_file, body.mesh, body);
   for (const ColliderSpec& collider : scene.colliders) add(collider.mesh_file, collider.solid.mesh, collider);

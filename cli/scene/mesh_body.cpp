@@ -51,6 +51,10 @@ sim::Selector read_selector(MapReader& pin, std::string_view key) {
   if (key == "corner") return pin.choice("corner", sim::Corner::top_left);
   if (key == "vertices") return read_vertices(pin);
   if (key == "box") return read_box(pin);
+  if (key == "weights") {
+    std::string name = pin.text("weights");
+    return sim::WeightAbove{std::move(name), pin.number("over", sim::WeightAbove{}.bound)};
+  }
   return sim::GroupName{pin.text("group")};
 }
 
@@ -74,11 +78,14 @@ std::optional<Eigen::Vector3d> read_pivot(MapReader& pin) {
 PinDraft read_pin(const Node& node, const Section& section, const NodePtr& record) {
   MapReader pin(node, section, record);
   std::vector<std::string_view> selectors;
-  for (const std::string_view key : {"corner", "vertices", "box", "group"})
+  for (const std::string_view key : {"corner", "vertices", "box", "group", "weights"})
     if (pin.find(key)) selectors.push_back(key);
   if (selectors.size() != 1)
-    fail_at(node.where, fmt::format("a pin has one of the keys corner, vertices, box and group; this one has {}",
-                                    selectors.size()));
+    fail_at(node.where,
+            fmt::format("a pin has one of the keys corner, vertices, box, group and weights; this one has {}",
+                        selectors.size()));
+  if (pin.find("over") && selectors[0] != "weights")
+    fail_at(pin.where("over"), "'over' bounds weights, and this pin has none; give it 'weights', or leave 'over' out");
   PinDraft draft;
   draft.where = pin.where(selectors[0]);
   draft.selector = read_selector(pin, selectors[0]);
@@ -106,6 +113,7 @@ void read_mesh(KindMap& kind, const std::filesystem::path& folder, BodyDraft& dr
   draft.spec.mesh_file = folder / kind.map.text("mesh");
   draft.spec.mesh_where = kind.map.where("mesh");
   MapReader transform = kind.submap("transform");
+  draft.unit_given = transform.find("unit") || transform.find("scale");
   draft.placement = read_placement(transform, kind.section("transform.rotate"));
 }
 

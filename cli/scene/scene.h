@@ -10,7 +10,7 @@
 #include "cli/scene/body_kind.h"
 #include "cli/scene/cache_format.h"
 #include "cli/yaml/yaml_overrides.h"
-#include "render/image/image.h"
+#include "render/image/finish.h"
 #include "render/image/settings.h"
 #include "render/image/spectrum.h"
 #include "sim/body/keyed_motion.h"
@@ -47,12 +47,15 @@ struct PinSpec {
   std::optional<double> until;  // [s] > 0 when it lets go; none: never
 };
 
-/// What something is drawn with.
+/// What something is drawn with: what the scene says, or what its mesh's file does.
 struct Look {
-  std::filesystem::path texture_file;  // empty: plain colour
-  std::string texture_where;           // its place in the scene, for messages
-  render::Image texture;
+  std::filesystem::path texture_file;                 // empty: none of the scene's own
+  std::string texture_where;                          // its place in the scene, for messages
+  bool of_mesh = true;                                // without one: the mesh's materials and colours, where it has any
+  std::optional<AlphaMode> alpha;                     // none: as the texture or the material has it
   Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB
+  std::vector<render::Finish> finish = {1, render::Finish()};  // once loaded: one for each of the mesh's materials
+  bool shows_vertex_colours = false;                           // times the colours of its mesh's vertices
 };
 
 /// How a body touches others and itself.
@@ -72,6 +75,8 @@ struct BodySpec : Look {
   std::vector<PinSpec> pins;
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  // [m/s]
   std::optional<ContactSpec> contact;                          // none: it passes through everything
+  std::vector<int> framed_points;     // of what is drawn, those that the fitted camera keeps in view; empty: all
+  std::vector<std::string> warnings;  // of its mesh: sentences without an end mark
 };
 
 /// Something that bodies touch and cannot move.

@@ -1,4 +1,5 @@
 // The files that a body names: its mesh and its texture.
+#include "cli/scene/mesh_warnings.h"
 #include "cli/scene/scene_files.h"
 #include "cli/scene/scene_parts.h"
 
@@ -7,8 +8,12 @@ namespace billow::cli {
 BodySpec load_body(BodyDraft draft, const FileWatch& watch) {
   BodySpec& spec = draft.spec;
   check_file(spec.mesh_file, "mesh", spec.mesh_where);
-  load_texture(spec, watch);
-  if (!spec.mesh_file.empty()) place_mesh(load_mesh(spec.mesh_file, spec.mesh_where, watch), draft, spec);
+  sim::Mesh mesh;
+  if (!spec.mesh_file.empty()) mesh = load_mesh(spec.mesh_file, spec.mesh_where, watch);
+  load_look(spec, mesh, spec.mesh_file, watch);
+  if (!spec.mesh_file.empty()) place_mesh(mesh, draft, spec);
+  spec.warnings = mesh_warnings(spec, draft.unit_given);
+  spec.framed_points = framed_vertices(spec);
   return std::move(spec);
 }
 

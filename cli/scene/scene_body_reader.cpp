@@ -41,10 +41,14 @@ void check_name(const std::string& name, const std::string& where) {
 }
 
 void read_look(MapReader& map, const std::filesystem::path& folder, Look& look) {
-  const std::string texture = map.text("texture", "none");
+  // A colour alone is what the body shall have, whatever its mesh's file says.
+  const std::string texture = map.text("texture", map.find("colour") ? "none" : "mesh");
   look.texture_where = map.where("texture");
-  if (texture != "none") look.texture_file = folder / texture;
+  look.of_mesh = texture == "mesh";
+  if (texture != "none" && texture != "mesh") look.texture_file = folder / texture;
   look.colour = read_colour(map, "colour", look.colour);
+  if (const std::string alpha = map.word("alpha", "auto"); alpha != "auto")
+    look.alpha = read_choice<AlphaMode>(*map.find("alpha"), "alpha");
 }
 
 BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record) {

@@ -146,9 +146,9 @@ ColliderDraft read_collider(const Node& node, int index, const fs::path& folder,
 ColliderSpec load_collider(ColliderDraft draft, const FileWatch& watch) {
   ColliderSpec& spec = draft.spec;
   check_file(spec.mesh_file, "mesh", spec.mesh_where);
-  load_texture(spec, watch);
-  if (!spec.mesh_file.empty())
-    spec.solid.mesh = placed(load_mesh(spec.mesh_file, spec.mesh_where, watch), draft.placement);
+  if (!spec.mesh_file.empty()) spec.solid.mesh = load_mesh(spec.mesh_file, spec.mesh_where, watch);
+  load_look(spec, spec.solid.mesh, spec.mesh_file, watch);
+  if (!spec.mesh_file.empty()) spec.solid.mesh = placed(spec.solid.mesh, draft.placement);
   spec.solid.motion = sim::KeyedMotion(draft.motion, draft.pivot ? *draft.pivot : box_centre(spec.solid.mesh));
   return std::move(spec);
 }

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/scene/scene_parts.h"
-#include "render/image/png.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 
 namespace billow::cli {
 
@@ -18,13 +17,6 @@ void check_file(const fs::path& file, std::string_view kind, const std::string& 
   const std::string shown = file.lexically_normal().string();
   if (status.type() == fs::file_type::not_found) fail_at(where, fmt::format("there is no {} file {}", kind, shown));
   if (!fs::is_regular_file(status)) fail_at(where, fmt::format("the {} {} is not a regular file", kind, shown));
-}
-
-void load_texture(Look& look, const FileWatch& watch) {
-  if (look.texture_file.empty()) return;
-  check_file(look.texture_file, "texture", look.texture_where);
-  if (watch) watch(look.texture_file);
-  look.texture = located(look.texture_where, [&] { return render::read_png(look.texture_file); });
 }
 
 sim::Mesh load_mesh(const fs::path& file, const std::string& where, const FileWatch& watch) {

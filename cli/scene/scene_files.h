@@ -12,8 +12,10 @@ namespace billow::cli {
 /// Throws InputError at `where` unless there is a regular file; `kind` is what messages call it. An empty path is none.
 void check_file(const std::filesystem::path& file, std::string_view kind, const std::string& where);
 
-/// Reads the texture, where there is one; `watch`, where there is one, hears of it before. Throws InputError.
-void load_texture(Look& look, const FileWatch& watch);
+/// Reads the textures of what is drawn with `mesh` and leaves the mesh with the materials that are used, numbered as
+/// the finishes are; `watch`, where there is one, hears of each file before. `mesh_file` may be empty. A texture that
+/// the mesh names and that cannot be read joins what is ignored of it. Throws InputError at one that the scene names.
+void load_look(Look& look, sim::Mesh& mesh, const std::filesystem::path& mesh_file, const FileWatch& watch);
 
 /// Imports the mesh, which `watch` hears of before. Throws InputError at `where`.
 sim::Mesh load_mesh(const std::filesystem::path& file, const std::string& where, const FileWatch& watch);

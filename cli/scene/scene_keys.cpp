@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "cli/scene/placement_reader.h"
 #include "cli/scene/scene.h"
 #include "sim/mesh/selection.h"
 
@@ -30,11 +31,20 @@ const Section scene{"the scene",
                      {"strip", {}, {"none"}},
                      {"spectrum", {}, {"none"}}}};
 
+std::vector<std::string_view> alpha_words() {
+  std::vector<std::string_view> all = all_words<AlphaMode>();
+  all.insert(all.begin(), "auto");
+  return all;
+}
+
 // With a key for each kind of body.
 std::vector<Key> body_keys() {
   std::vector<Key> keys = {{"name"}};
   for (const BodyKindRow& kind : body_kinds) keys.push_back({kind.key});
-  keys.insert(keys.end(), {{"contact", {}, {"none"}}, {"texture", {}, {"none"}}, {"colour", between(0, 1)}});
+  keys.insert(keys.end(), {{"contact", {}, {"none"}},
+                           {"texture", {}, {"mesh", "none"}},
+                           {"colour", between(0, 1)},
+                           {"alpha", {}, alpha_words()}});
   return keys;
 }
 
@@ -74,6 +84,8 @@ const Section pin{"pin",
                    {"vertices", at_least_0(1e9)},
                    {"box", within(1e6, "m")},
                    {"group"},
+                   {"weights"},
+                   {"over", within(1e6)},
                    {"motion"},
                    {"pivot", within(1e6, "m"), {"mean"}},
                    {"until", above_0(1e5, "s"), {"none"}}}};
@@ -81,14 +93,19 @@ const Section pin{"pin",
 const Section place_key{
     "the key", {{"time", between(0, 1e5, "s")}, {"translate", within(1e6, "m")}, {"rotate", within(36000, "degrees")}}};
 
-const Section transform{
-    "transform", {{"scale", above_0(1e6)}, {"rotate", within(3600, "degrees")}, {"translate", within(1e6, "m")}}};
+const Section transform{"transform",
+                        {{"unit", {}, all_words<LengthUnit>()},
+                         {"z_up", {}, {"true", "false"}},
+                         {"scale", above_0(1e6)},
+                         {"rotate", within(3600, "degrees")},
+                         {"translate", within(1e6, "m")}}};
 
 const Section axis_angle{"rotate", {{"axis", within(1e6)}, {"angle", within(3600, "degrees")}}};
 
 const Section soft{"soft",
                    {{"mesh"},
                     {"transform"},
+                    {"close_holes", {}, {"true", "false"}},
                     {"mass", above_0(1e6, "kg")},
                     {"mass_distribution", {}, {"area", "uniform"}},
                     {"stiffness"},
@@ -148,8 +165,9 @@ const Section collider{"collider",
                         {"friction", between(0, 100)},
                         {"motion"},
                         {"pivot", within(1e6, "m"), {"centre"}},
-                        {"texture", {}, {"none"}},
-                        {"colour", between(0, 1)}}};
+                        {"texture", {}, {"mesh", "none"}},
+                        {"colour", between(0, 1)},
+                        {"alpha", {}, alpha_words()}}};
 
 const Section plane{"plane", {{"height", within(1e6, "m")}, {"point", within(1e6, "m")}, {"normal", within(1e6)}}};
 

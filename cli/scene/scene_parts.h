@@ -45,7 +45,8 @@ struct BodyDraft {
   std::vector<PinDraft> pins;
   FormulaDraft stiffness_factor, mass_factor;  // of a soft body
   std::string pins_where;
-  NodePtr open_contact;  // entered for `contact` where the body does not say it; null where it does
+  bool unit_given = false;  // the scene says what the mesh's lengths are, or scales them
+  NodePtr open_contact;     // entered for `contact` where the body does not say it; null where it does
 };
 
 /// `folder` is what relative paths are relative to; `index` gives a nameless body its name.

@@ -1,9 +1,12 @@
 // soft: in a body.
 #include <fmt/format.h>
 
+#include <climits>
+
 #include "cli/scene/mesh_body.h"
 #include "cli/scene/particle_expression.h"
 #include "cli/scene/scene_pins.h"
+#include "sim/mesh/boundary.h"
 
 namespace billow::cli {
 
@@ -41,6 +44,7 @@ void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& 
   SoftSpec soft;
   soft.options.surface.name = draft.spec.name;
   read_mesh(kind, folder, draft);
+  soft.close_holes = kind.map.boolean("close_holes", soft.close_holes);
   read_mass(kind, soft.options.surface);
   read_stiffness(kind, soft);
   MapReader variation = kind.submap("variation");
@@ -55,7 +59,7 @@ void read_soft(MapReader& body, const std::filesystem::path& folder, BodyDraft& 
 ContactSpec SoftSpec::contact_by_kind() const { return {.self = false}; }
 
 void SoftSpec::place(const sim::Mesh& mesh, const BodyDraft& draft, BodySpec& body) {
-  body.mesh = placed(mesh, draft);
+  body.mesh = placed(close_holes ? sim::with_holes_closed(mesh, INT_MAX) : mesh, draft);
   body.pins = placed_pins(body.mesh, draft);
   options.surface.pinned = held_vertices(body.pins, 0.0);
   options.stiffness_factor = factors(body.mesh, draft.stiffness_factor, "the variation of stiffness");

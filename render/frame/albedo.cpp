@@ -18,10 +18,21 @@ GLint wrap_for(const sim::Surface& surface) {
 
 }  // namespace
 
-Albedo make_albedo(const Gl& gl, const DrawnBody& body) {
-  const bool plain = body.texture.pixels.empty();
-  return {make_colour_texture(gl, plain ? single_pixel() : body.texture, wrap_for(body.surface)),
-          plain ? body.colour : Eigen::Vector3f::Ones()};
+std::vector<Albedo> make_albedos(const Gl& gl, const std::vector<DrawnBody>& bodies) {
+  std::vector<Albedo> albedos;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const DrawnBody& body = bodies[b];
+    for (std::size_t m = 0; m < body.finish.size(); ++m) {
+      const TriangleRange triangles = triangles_of(body.surface, static_cast<int>(m));
+      if (triangles.count == 0) continue;
+      const Finish& finish = body.finish[m];
+      const bool plain = finish.texture.pixels.empty();
+      albedos.push_back({b, triangles,
+                         make_colour_texture(gl, plain ? single_pixel() : finish.texture, wrap_for(body.surface)),
+                         finish.colour, finish.opacity, finish.alpha, finish.cutoff, finish.hole_below()});
+    }
+  }
+  return albedos;
 }
 
 }  // namespace billow::render

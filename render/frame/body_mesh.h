@@ -8,7 +8,15 @@
 
 namespace billow::render {
 
-/// Vertex attributes: 0 position [m], 1 normal, 2 velocity [m/s], 3 texture coordinates.
+/// Some of a surface's triangles, one after the other.
+struct TriangleRange {
+  int first = 0, count = 0;
+};
+
+/// The triangles of one of the surface's materials.
+TriangleRange triangles_of(const sim::Surface& surface, int material);
+
+/// Vertex attributes: 0 position [m], 1 normal, 2 velocity [m/s], 3 texture coordinates, 4 colour (linear light).
 class BodyMesh {
  public:
   BodyMesh(const Gl& gl, const sim::Surface& surface);
@@ -17,6 +25,9 @@ class BodyMesh {
   /// `state` does not have the surface's points.
   void update(const sim::SurfaceState& state);
   void draw() const;
+  void draw(const TriangleRange& triangles) const;
+  /// Triangles of `count` corners in any order, by way of `buffer`.
+  void draw_corners(const GlObject& buffer, const GLuint* corner, std::size_t count) const;
 
   /// A corner as it is now.
   struct Corner {
@@ -31,7 +42,7 @@ class BodyMesh {
   const Gl* gl_;
   sim::Surface surface_;
   std::vector<Corner> corner_;
-  GlObject array_, moving_, fixed_, index_;
+  GlObject array_, moving_, fixed_, colour_, index_;
 };
 
 }  // namespace billow::render

@@ -3,8 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
-#include "render/image/image.h"
+#include "render/image/finish.h"
 #include "sim/drawn/surface.h"
 
 namespace billow::render {
@@ -12,9 +13,8 @@ namespace billow::render {
 /// One body as the renderer needs it for a whole run.
 struct DrawnBody {
   sim::Surface surface;
-  Image texture;                                      // empty: plain `colour`
-  Eigen::Vector3f colour{0.4564f, 0.4564f, 0.4564f};  // linear-light RGB in [0, 1]
-  std::string name = {};                              // by which the data view knows it
+  std::vector<Finish> finish = {1, Finish()};  // of the surface's materials, one at least
+  std::string name = {};                       // by which the data view knows it
 };
 
 /// What holds for every frame of a run and is known before the first one is drawn.

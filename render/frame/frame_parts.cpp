@@ -17,12 +17,12 @@ FrameParts::FrameParts(const Settings& chosen, const std::vector<DrawnBody>& bod
       next_camera(stage.camera),
       context(threads),
       target(gl(), context.limits(), chosen.width, chosen.height, chosen.samples),
-      shadow(gl(), stage),
+      albedos(make_albedos(gl(), bodies)),
+      shadow(gl(), stage, albedos),
       surroundings(gl(), chosen, stage, target.drawn_height()) {
   for (const DrawnBody& body : bodies) meshes.emplace_back(gl(), body.surface);
   gl().Enable(GL_FRAMEBUFFER_SRGB);
   gl().DepthFunc(GL_LEQUAL);  // what fills the screen lies exactly at the far plane
-  gl().BlendFunc(GL_DST_COLOR, GL_ZERO);
   surroundings.draw_backdrop(target);
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/frame/albedo.h"
 #include "render/frame/body_mesh.h"
 #include "render/frame/drawn_body.h"
 #include "render/frame/shadow.h"
@@ -34,6 +35,7 @@ struct FrameParts {
   Camera next_camera;  // of the frame after the current one
   GlContext context;
   FrameTarget target;
+  std::vector<Albedo> albedos;  // of all bodies
   Shadow shadow;
   Surroundings surroundings;
   std::vector<BodyMesh> meshes;                               // one per body

@@ -135,20 +135,19 @@ PixelBox picture_box(const FrameParts& frame) {
 
 }  // namespace
 
-GeometryPass::GeometryPass(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
+GeometryPass::GeometryPass(const FrameParts& frame)
     : gl_(&frame.gl()),
       width_(frame.settings.width),
       height_(frame.settings.height),
       grid_(grid_of(frame.settings.samples)),
       band_rows_(rows_at_once(frame.settings, grid_)),
-      program_(frame.gl(), "geometry", shaders::surface_vertex, shaders::geometry_fragment) {
+      programs_(frame.gl(), "geometry", shaders::surface_vertex, shaders::geometry_fragment, frame.albedos) {
   const int limit = frame.context.limits().max_size / grid_;
   if (width_ > limit || height_ > limit)
     throw InputError(
         fmt::format("render.size {} x {} has no data, depth, normal or id view with these samples: at "
                     "most {} pixels each way",
                     width_, height_, limit));
-  for (const DrawnBody& body : bodies) albedos_.push_back(make_albedo(*gl_, body));
   const int w = width_ * grid_, h = band_rows_ * grid_;
   hit_storage_ = make_storage(*gl_, GL_RG32UI, w, h);
   albedo_storage_ = make_storage(*gl_, GL_RGBA32F, w, h);
@@ -165,13 +164,14 @@ void GeometryPass::draw_band(const FrameParts& frame, int bottom) const {
   gl_->Enable(GL_DEPTH_TEST);
   gl_->ClearBufferuiv(GL_COLOR, 0, nothing);
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
-  program_.use();
-  program_.set("view_projection", frame.stage.view_projection);
-  for (std::size_t b = 0; b < frame.meshes.size(); ++b) {
-    bind_texture(*gl_, 0, albedos_[b].texture.name());
-    program_.set("colour", albedos_[b].colour);
-    program_.set("body", static_cast<int>(b + 1));
-    frame.meshes[b].draw();
+  programs_.set_up([&](const Program& program) { program.set("view_projection", frame.stage.view_projection); });
+  for (const Albedo& albedo : frame.albedos) {
+    const Program& program = programs_.use_for(albedo, 0);
+    bind_texture(*gl_, 0, albedo.texture.name());
+    program.set("colour", albedo.colour);
+    program.set("body", static_cast<int>(albedo.body + 1));
+    program.set("first", albedo.triangles.first);
+    frame.meshes[albedo.body].draw(albedo.triangles);
   }
 }
 

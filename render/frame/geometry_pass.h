@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/frame/albedo.h"
+#include "render/frame/body_programs.h"
 #include "render/frame/frame_parts.h"
 
 namespace billow::render {
@@ -27,7 +27,7 @@ struct GeometrySample {
 class GeometryPass {
  public:
   /// Throws InputError when GL cannot hold the picture at that many samples.
-  GeometryPass(const FrameParts& frame, const std::vector<DrawnBody>& bodies);
+  explicit GeometryPass(const FrameParts& frame);
 
   /// Called for every pixel that sees a body, x to the right and y down, with the samples that do.
   using PixelWork = std::function<void(int x, int y, std::span<const GeometrySample> hits)>;
@@ -44,8 +44,7 @@ class GeometryPass {
 
   const Gl* gl_;
   int width_, height_, grid_, band_rows_;
-  Program program_;
-  std::vector<Albedo> albedos_;  // one per body
+  BodyPrograms programs_;
   GlObject hit_storage_, albedo_storage_, depth_storage_, target_;
   std::vector<Hit> hit_;  // of the band's box, rows upwards
   std::vector<Eigen::Vector4f> albedo_;

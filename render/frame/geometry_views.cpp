@@ -35,8 +35,8 @@ std::uint16_t depth_code(double depth, const DepthRange& range) {
 
 class DepthPainter : public ViewPainter {
  public:
-  DepthPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : pass_(std::make_unique<GeometryPass>(frame, bodies)), range_(depth_range(frame)) {}
+  explicit DepthPainter(const FrameParts& frame)
+      : pass_(std::make_unique<GeometryPass>(frame)), range_(depth_range(frame)) {}
 
   Picture draw(FrameParts& frame) const override {
     Image16 image{frame.settings.width, frame.settings.height, {}, {}};
@@ -57,8 +57,7 @@ class DepthPainter : public ViewPainter {
 
 class NormalPainter : public ViewPainter {
  public:
-  NormalPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : pass_(std::make_unique<GeometryPass>(frame, bodies)) {}
+  explicit NormalPainter(const FrameParts& frame) : pass_(std::make_unique<GeometryPass>(frame)) {}
 
   // c = 1/2 + 1/2 n of the mean over the samples that see a body.
   Picture draw(FrameParts& frame) const override {
@@ -91,7 +90,7 @@ Rgb8 body_colour(std::size_t b) {
 class IdPainter : public ViewPainter {
  public:
   IdPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : pass_(std::make_unique<GeometryPass>(frame, bodies)) {
+      : pass_(std::make_unique<GeometryPass>(frame)) {
     for (std::size_t b = 0; b < bodies.size(); ++b) colours_.push_back(body_colour(b));
   }
 
@@ -116,12 +115,12 @@ class IdPainter : public ViewPainter {
 
 }  // namespace
 
-std::unique_ptr<ViewPainter> make_depth_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies) {
-  return std::make_unique<DepthPainter>(frame, bodies);
+std::unique_ptr<ViewPainter> make_depth_painter(const FrameParts& frame, const std::vector<DrawnBody>&) {
+  return std::make_unique<DepthPainter>(frame);
 }
 
-std::unique_ptr<ViewPainter> make_normal_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies) {
-  return std::make_unique<NormalPainter>(frame, bodies);
+std::unique_ptr<ViewPainter> make_normal_painter(const FrameParts& frame, const std::vector<DrawnBody>&) {
+  return std::make_unique<NormalPainter>(frame);
 }
 
 std::unique_ptr<ViewPainter> make_id_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies) {

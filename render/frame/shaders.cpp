@@ -4,19 +4,26 @@
 
 namespace billow::render::shaders {
 
+std::string headed(const std::string& shader, const std::string& head) {
+  return std::string(shader).insert(shader.find('\n') + 1, head);
+}
+
 const char* const surface_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 velocity;
 layout(location = 3) in vec2 texture_place;
+layout(location = 4) in vec3 own_colour;
 uniform mat4 view_projection;
 out vec3 world;
 out vec3 world_normal;
 out vec3 world_velocity;
 out vec2 place;
+out vec3 tint;
 
 void main() {
   world = position;
+  tint = own_colour;
   world_normal = normal;
   world_velocity = velocity;
   place = texture_place;
@@ -28,6 +35,7 @@ const char* const lit_fragment = R"(#version 330 core
 in vec3 world;
 in vec3 world_normal;
 in vec2 place;
+in vec3 tint;
 uniform sampler2D albedo_map;
 uniform sampler2DShadow shadow_map;
 uniform mat4 light_texture;   // world -> (u, v, depth) in the shadow map
@@ -37,7 +45,22 @@ uniform vec3 to_light;
 uniform vec3 to_fill;
 uniform float shadow_offset;  // [m] along the normal, against a surface shadowing itself
 uniform vec2 shadow_blur;     // [texture] radius of the filter disc
+uniform float opacity;
+uniform float cutoff;
 out vec4 pixel;
+
+// How much of the pixel the surface covers, or how much of what is behind it hides.
+#if defined(CUT_OUT)
+float shown(float alpha) {
+  float share = (alpha * opacity - cutoff) / max(fwidth(alpha * opacity), 1e-4) + 0.5;
+  if (share <= 0.0) discard;
+  return min(share, 1.0);
+}
+#elif defined(BLEND)
+float shown(float alpha) { return alpha * opacity; }
+#else
+float shown(float alpha) { return 1.0; }
+#endif
 
 const vec3 key_light = vec3(1.42, 1.33, 1.22);
 const vec3 sky_light = vec3(0.33, 0.37, 0.43);
@@ -60,7 +83,9 @@ float key_visibility(vec3 lit_side) {
 void main() {
   vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
   vec3 to_eye = normalize(eye - world);
-  vec3 albedo = texture(albedo_map, place).rgb * colour;
+  vec4 texel = texture(albedo_map, place);
+  float alpha = shown(texel.a);
+  vec3 albedo = texel.rgb * colour * tint;
   float luma = dot(albedo, vec3(0.2126, 0.7152, 0.0722));
   albedo = gl_FrontFacing ? albedo : 0.78 * mix(albedo, vec3(luma), 0.30);
 
@@ -84,8 +109,22 @@ void main() {
   gloss = 0.05 * gloss * gloss * visible * max(facing, 0.0);
 
   vec3 shaded = albedo * (key + ambient) + sheen * ambient + gloss * key_light;
-  pixel = vec4(shaded / (1.0 + 0.12 * shaded * shaded), 1.0);  // a soft shoulder keeps white from clipping
+  pixel = vec4(shaded / (1.0 + 0.12 * shaded * shaded), alpha);  // a soft shoulder keeps white from clipping
 }
+)";
+
+const char* const hole_functions = R"(
+#ifdef HOLES
+in vec2 place;
+uniform sampler2D albedo_map;
+uniform float opacity;
+uniform float hole_below;
+void drop_holes() {
+  if (texture(albedo_map, place).a * opacity < hole_below) discard;
+}
+#else
+void drop_holes() {}
+#endif
 )";
 
 const char* const velocity_fragment = R"(#version 330 core
@@ -101,6 +140,7 @@ vec3 velocity_colour(vec3 v);  // linear light
 
 // 1 where the surface faces the eye, so that those colours are exact; folds that turn away darken.
 void main() {
+  drop_holes();
   float facing = abs(dot(normalize(world_normal), normalize(eye - world)));
   pixel = vec4(velocity_colour(world_velocity / velocity_range) * (1.0 - shading * (1.0 - facing)), 1.0);
 }
@@ -122,16 +162,21 @@ vec3 velocity_colour(vec3 v) {
 )";
 
 const char* const geometry_fragment = R"(#version 330 core
+#ifndef HOLES
 in vec2 place;
 uniform sampler2D albedo_map;
+#endif
+in vec3 tint;
 uniform vec3 colour;
-uniform int body;  // counted from 1: 0 is nothing
+uniform int body;   // counted from 1: 0 is nothing
+uniform int first;  // triangle of those that are drawn
 layout(location = 0) out uvec2 hit;
 layout(location = 1) out vec4 albedo;
 
 void main() {
-  hit = uvec2(uint(body), uint(gl_PrimitiveID));
-  albedo = vec4(texture(albedo_map, place).rgb * colour, 1.0);
+  drop_holes();
+  hit = uvec2(uint(body), uint(first + gl_PrimitiveID));
+  albedo = vec4(texture(albedo_map, place).rgb * colour * tint, 1.0);
 }
 )";
 
@@ -225,15 +270,18 @@ void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0); }
 
 const char* const depth_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
+layout(location = 3) in vec2 texture_place;
 uniform mat4 light_projection;
+out vec2 place;
 
 void main() {
+  place = texture_place;
   gl_Position = light_projection * vec4(position, 1.0);
 }
 )";
 
 const char* const depth_fragment = R"(#version 330 core
-void main() {}
+void main() { drop_holes(); }
 )";
 
 const char* const occlusion_fragment = R"(#version 330 core

@@ -1,8 +1,16 @@
 // The GLSL of every pass.
 #pragma once
 
+#include <string>
+
 namespace billow::render::shaders {
 
+/// The shader with `head` after its first line, which names the version.
+std::string headed(const std::string& shader, const std::string& head);
+
+// lit_fragment knows CUT_OUT and BLEND when one of them is defined. Velocity, geometry and depth need hole_functions at
+// their heads, and with HOLES defined drop what the texture's alpha cuts out.
+extern const char* const hole_functions;
 extern const char* const surface_vertex;         // a body's corner -> clip space
 extern const char* const lit_fragment;           // lit, textured, two-sided
 extern const char* const velocity_fragment;      // a body in colours of its velocity; to be followed by one of

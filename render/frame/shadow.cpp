@@ -49,9 +49,10 @@ Eigen::Matrix4f patch_matrix(const GroundPatch& patch) {
 
 }  // namespace
 
-Shadow::Shadow(const Gl& gl, const Stage& stage)
+Shadow::Shadow(const Gl& gl, const Stage& stage, const std::vector<Albedo>& albedos)
     : gl_(&gl),
-      depth_program_(gl, "depth", shaders::depth_vertex, shaders::depth_fragment),
+      albedos_(albedos),
+      depth_programs_(gl, "depth", shaders::depth_vertex, shaders::depth_fragment, albedos),
       occlusion_program_(gl, "occlusion", shaders::screen_vertex, shaders::occlusion_fragment),
       blur_program_(gl, "blur", shaders::screen_vertex, shaders::blur_fragment),
       depth_(make_depth_map(gl)),
@@ -62,8 +63,7 @@ Shadow::Shadow(const Gl& gl, const Stage& stage)
       ground_target_(make_target(gl, GL_COLOR_ATTACHMENT0, ground_)),
       no_vertices_(make_vertex_array(gl)),
       light_texture_(texture_matrix(stage.light_projection)) {
-  depth_program_.use();
-  depth_program_.set("light_projection", stage.light_projection);
+  depth_programs_.set_up([&](const Program& program) { program.set("light_projection", stage.light_projection); });
   occlusion_program_.use();
   occlusion_program_.set("patch_to_light", Eigen::Matrix4f(light_texture_ * patch_matrix(stage.shadow_patch)));
   occlusion_program_.set("light_size", stage.light_size);
@@ -86,8 +86,10 @@ void Shadow::draw_depth(const std::vector<BodyMesh>& meshes) const {
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   gl_->Enable(GL_POLYGON_OFFSET_FILL);  // pushes steep triangles back by their own slope
   gl_->PolygonOffset(1.5f, 2.0f);
-  depth_program_.use();
-  for (const BodyMesh& mesh : meshes) mesh.draw();
+  for (const Albedo& albedo : albedos_) {
+    depth_programs_.use_for(albedo, 0);
+    meshes[albedo.body].draw(albedo.triangles);
+  }
   gl_->Disable(GL_POLYGON_OFFSET_FILL);
 }
 

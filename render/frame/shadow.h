@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/frame/body_mesh.h"
+#include "render/frame/body_programs.h"
 #include "render/frame/stage.h"
 #include "render/gl/gl_objects.h"
 
@@ -11,9 +11,10 @@ namespace billow::render {
 
 class Shadow {
  public:
-  Shadow(const Gl& gl, const Stage& stage);
+  /// `albedos` are those of the bodies that it will draw, and outlive it.
+  Shadow(const Gl& gl, const Stage& stage, const std::vector<Albedo>& albedos);
 
-  /// Draws both maps for the meshes as they are now.
+  /// Draws both maps for the meshes as they are now, without what their finishes cut out.
   void update(const std::vector<BodyMesh>& meshes);
 
   /// Depth as seen from the light, set up for comparison (sampler2DShadow).
@@ -30,7 +31,9 @@ class Shadow {
   void draw_ground() const;
 
   const Gl* gl_;
-  Program depth_program_, occlusion_program_, blur_program_;
+  const std::vector<Albedo>& albedos_;
+  BodyPrograms depth_programs_;
+  Program occlusion_program_, blur_program_;
   GlObject depth_, noisy_ground_, ground_;
   GlObject depth_target_, noisy_target_, ground_target_;
   GlObject no_vertices_;

@@ -84,7 +84,10 @@ void Surroundings::draw_shade(const FrameTarget& target, GLuint shadow) const {
   target.bind_plain();
   shade_.use();
   bind_texture(*gl_, 0, shadow);
-  if (has_background_) gl_->Enable(GL_BLEND);
+  if (has_background_) {
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFunc(GL_DST_COLOR, GL_ZERO);
+  }
   draw_ground_square();
   gl_->Disable(GL_BLEND);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "render/frame/body_programs.h"
 #include "render/frame/geometry_pass.h"
 #include "render/frame/shaders.h"
 #include "render/frame/view_drawing.h"
@@ -10,6 +11,7 @@
 namespace billow::render {
 namespace {
 
+constexpr GLenum ramp_unit = 0, albedo_unit = 1;
 constexpr float backdrop = 0.045f;  // linear light: neutral, darker than a body at rest
 
 Image ramp_image() {
@@ -34,13 +36,15 @@ std::string fragment_for(VelocityColour colour) {
 
 class VelocityPainter : public ViewPainter {
  public:
-  VelocityPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : velocity_(frame.gl(), "velocity", shaders::surface_vertex, fragment_for(frame.settings.velocity_colour)),
+  explicit VelocityPainter(const FrameParts& frame)
+      : velocity_(frame.gl(), "velocity", shaders::surface_vertex, fragment_for(frame.settings.velocity_colour),
+                  frame.albedos),
         ramp_(make_ramp(frame.gl())) {
-    velocity_.use();
-    velocity_.set("velocity_range", static_cast<float>(frame.velocity_range));
-    velocity_.set("shading", static_cast<float>(frame.settings.velocity_shading));
-    if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame, bodies);
+    velocity_.set_up([&](const Program& program) {
+      program.set("velocity_range", static_cast<float>(frame.velocity_range));
+      program.set("shading", static_cast<float>(frame.settings.velocity_shading));
+    });
+    if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame);
   }
 
   Picture draw(FrameParts& frame) const override {
@@ -58,11 +62,15 @@ class VelocityPainter : public ViewPainter {
     frame.gl().Clear(GL_COLOR_BUFFER_BIT);
     if (frame.covered.empty()) return;
     frame.target.bind_sampled(frame.covered);
-    velocity_.use();
-    velocity_.set("view_projection", frame.stage.view_projection);
-    velocity_.set("eye", frame.stage.camera.eye);
-    bind_texture(frame.gl(), 0, ramp_.name());
-    for (const BodyMesh& mesh : frame.meshes) mesh.draw();
+    velocity_.set_up([&](const Program& program) {
+      program.set("view_projection", frame.stage.view_projection);
+      program.set("eye", frame.stage.camera.eye);
+    });
+    bind_texture(frame.gl(), ramp_unit, ramp_.name());
+    for (const Albedo& albedo : frame.albedos) {
+      velocity_.use_for(albedo, albedo_unit);
+      frame.meshes[albedo.body].draw(albedo.triangles);
+    }
     frame.surroundings.fill_behind_bodies(frame.target);
     frame.target.resolve(frame.covered);
   }
@@ -81,15 +89,15 @@ class VelocityPainter : public ViewPainter {
     });
   }
 
-  Program velocity_;
+  BodyPrograms velocity_;
   GlObject ramp_;
   std::unique_ptr<GeometryPass> exact_;  // where colours are not shaded
 };
 
 }  // namespace
 
-std::unique_ptr<ViewPainter> make_velocity_painter(const FrameParts& frame, const std::vector<DrawnBody>& bodies) {
-  return std::make_unique<VelocityPainter>(frame, bodies);
+std::unique_ptr<ViewPainter> make_velocity_painter(const FrameParts& frame, const std::vector<DrawnBody>&) {
+  return std::make_unique<VelocityPainter>(frame);
 }
 
 }  // namespace billow::render

@@ -15,6 +15,7 @@ namespace billow::render {
   X(PFNGLBINDTEXTUREPROC, BindTexture)                                        \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                \
   X(PFNGLBLENDFUNCPROC, BlendFunc)                                            \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                            \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                \
   X(PFNGLBUFFERDATAPROC, BufferData)                                          \
   X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                    \
@@ -33,6 +34,7 @@ namespace billow::render {
   X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                  \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                          \
   X(PFNGLDEPTHFUNCPROC, DepthFunc)                                            \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                                            \
   X(PFNGLDISABLEPROC, Disable)                                                \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                          \
   X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                          \
@@ -72,6 +74,7 @@ namespace billow::render {
   X(PFNGLUNIFORM3FVPROC, Uniform3fv)                                          \
   X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                              \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                          \
+  X(PFNGLVERTEXATTRIB3FPROC, VertexAttrib3f)                                  \
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                        \
   X(PFNGLVIEWPORTPROC, Viewport)
 // clang-format on

@@ -179,10 +179,7 @@ void write_rows(const std::filesystem::path& file, int width, int height, const 
   output.commit();
 }
 
-}  // namespace
-
-Image read_png(const std::filesystem::path& file) {
-  const Stream stream = open_to_read(file);
+Image read(const Stream& stream, const std::filesystem::path& file) {
   check_header(file, stream.get());
   Reader reader;
   if (!succeeds(reader.png, [&] { read_header(reader, stream.get()); }))
@@ -197,6 +194,17 @@ Image read_png(const std::filesystem::path& file) {
   return image;
 }
 
+}  // namespace
+
+Image read_png(const std::filesystem::path& file) { return read(open_to_read(file), file); }
+
+Image decode_png(std::string_view bytes, const std::string& name) {
+  if (bytes.empty()) refuse(name, "the image is empty");
+  // Only read from.
+  Stream stream(fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"), std::fclose);
+  if (!stream) throw std::bad_alloc();
+  return read(stream, name);
+}
 void write_png(const std::filesystem::path& file, const Image& image) {
   write_png_rows(file, image.width, image.height, image.channels, rows_of(image));
 }

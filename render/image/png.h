@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "base/atomic_file.h"
 #include "render/image/image.h"
@@ -14,6 +15,9 @@ namespace billow::render {
 /// Reads an 8-bit RGB or RGBA image (palette, grey and 16-bit files are converted).
 /// Throws InputError on a file that is missing, damaged, or larger than 8192 x 8192.
 Image read_png(const std::filesystem::path& file);
+
+/// The same of the bytes of a file; `name` stands for it in messages.
+Image decode_png(std::string_view bytes, const std::string& name);
 
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.

@@ -55,4 +55,7 @@ struct Settings {
   Background background;
 };
 
+/// The same settings with every place [m] as seen from `origin` [m].
+Settings seen_from(Settings settings, const Eigen::Vector3d& origin);
+
 }  // namespace billow::render

@@ -22,8 +22,9 @@ void add_along(const Eigen::MatrixXf& weight, const Eigen::VectorXf& length, con
 
 }  // namespace
 
-SurfaceState pose(const Skin& skin, const Body& body, const State& state) {
-  const SurfaceState particles{state.position.middleRows(body.first_particle, body.particles).cast<float>(),
+SurfaceState pose(const Skin& skin, const Body& body, const State& state, const Eigen::Vector3d& origin) {
+  const auto world = state.position.middleRows(body.first_particle, body.particles);
+  const SurfaceState particles{(world.rowwise() - origin.transpose()).cast<float>(),
                                state.velocity.middleRows(body.first_particle, body.particles).cast<float>()};
   if (skin.middle.size() == 0) return particles;
   SurfaceState points{skin.middle * particles.position, skin.middle * particles.velocity};

@@ -19,7 +19,9 @@ struct Skin {
 };
 
 /// Where the skin of `body` is at `state`, and its exact velocity.
-SurfaceState pose(const Skin& skin, const Body& body, const State& state);
+/// `origin` [m] is where it is seen from: single precision is finest around it.
+SurfaceState pose(const Skin& skin, const Body& body, const State& state,
+                  const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// Numbers (N) of all particles at the points (p) of the skin of `body`: each has the mean, by the same weights, of the
 /// particles that its middle is made of.

@@ -2,6 +2,7 @@
 #include "sim/drawn/surface.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "sim/mesh/planar_uv.h"
@@ -64,19 +65,32 @@ void add_triangles(const Mesh& mesh, const Face& face, const std::array<int, 4>&
   triangles.emplace_back(corner[s], corner[s + 2], corner[(s + 3) % 4]);
 }
 
+// The faces in order, those of each material together.
+std::vector<std::size_t> by_material(const Mesh& mesh) {
+  std::vector<std::size_t> order(mesh.face.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!mesh.face_material.empty())
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return mesh.face_material[a] < mesh.face_material[b]; });
+  return order;
+}
+
 }  // namespace
 
 Surface build_surface(const Mesh& mesh) {
   const std::vector<FaceUv> uv = mesh.uv.empty() ? planar_corner_uvs(mesh) : mesh.uv;
   Corners corners(mesh.vertices());
   std::vector<Eigen::RowVector3i> triangles;
-  for (std::size_t f = 0; f < mesh.face.size(); ++f) {
+  std::vector<int> material;
+  for (const std::size_t f : by_material(mesh)) {
     const Face& face = mesh.face[f];
     std::array<int, 4> corner{};
     for (int c = 0; c < corner_count(face); ++c) corner[c] = corners.number_of(face[c], uv[f][c]);
     add_triangles(mesh, face, corner, triangles);
+    if (!mesh.face_material.empty()) material.resize(triangles.size(), mesh.face_material[f]);
   }
   Surface surface;
+  surface.material = Eigen::VectorXi::Map(material.data(), static_cast<Eigen::Index>(material.size()));
   corners.store(surface);
   surface.triangle.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t) surface.triangle.row(static_cast<Eigen::Index>(t)) = triangles[t];

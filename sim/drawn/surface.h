@@ -13,6 +13,8 @@ struct Surface {
   Eigen::MatrixX3i triangle;  // (t x 3) corner indices, counter-clockwise seen from the front
   Eigen::VectorXi point;      // (c)     the point each corner sits on
   Eigen::MatrixX2f uv;        // (c x 2) texture coordinates, v up
+  Eigen::VectorXi material;   // (t)     ascending, counted from 0; empty: all 0
+  Eigen::MatrixX3f colour;    // (c x 3) linear-light RGB, times what else is drawn; (0 x 3): white
 
   int points() const { return point.size() == 0 ? 0 : point.maxCoeff() + 1; }
 };
@@ -25,7 +27,8 @@ struct SurfaceState {
 };
 
 /// The drawn surface of `mesh`: quads split along their shorter diagonal, one corner per distinct (vertex, uv).
-/// Without UVs, texture coordinates come from the two largest extents of the bounding box.
+/// Without UVs, texture coordinates come from the two largest extents of the bounding box. Triangles keep the order of
+/// the faces, those of each of the mesh's materials together.
 Surface build_surface(const Mesh& mesh);
 
 }  // namespace billow::sim

@@ -5,10 +5,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 
 #include "base/error.h"
+#include "sim/mesh/boundary.h"
 #include "sim/mesh/mesh_edges.h"
+#include "sim/mesh/pieces.h"
 
 namespace billow::sim {
 namespace {
@@ -42,12 +43,18 @@ int direction_along(const Face& face, const Edge& edge) {
   return 0;
 }
 
-void require_two_faces(const Mesh& mesh, const Edge& edge) {
-  if (edge.face.size() != 2)
+void require_two_faces(const Mesh& mesh, const Edge& edge, std::ptrdiff_t open_edges) {
+  if (edge.face.size() == 1)
     throw InputError(fmt::format(
-        "the edge between the vertices {} and {} belongs to {} {}, and a soft body's surface "
-        "must be closed, with two faces at every edge; close the mesh, or make it a cloth",
-        shown(mesh, edge.first), shown(mesh, edge.second), edge.face.size(), edge.face.size() == 1 ? "face" : "faces"));
+        "the edge between the vertices {} and {} belongs to 1 face, and a soft body's surface must be closed, with two "
+        "faces at every edge; {} such edges bound {} holes: close the mesh, say 'close_holes: true', or make it a "
+        "cloth",
+        shown(mesh, edge.first), shown(mesh, edge.second), open_edges, border_loops(mesh).size()));
+  if (edge.face.size() != 2)
+    throw InputError(
+        fmt::format("the edge between the vertices {} and {} belongs to {} faces, and a soft body's surface "
+                    "must be closed, with two faces at every edge; mend the mesh, or make it a cloth",
+                    shown(mesh, edge.first), shown(mesh, edge.second), edge.face.size()));
   if (direction_along(mesh.face[edge.face[0]], edge) == direction_along(mesh.face[edge.face[1]], edge))
     throw InputError(
         fmt::format("the two faces at the edge between the vertices {} and {} face opposite ways; let all "
@@ -62,26 +69,13 @@ void require_volume(const Mesh& mesh) {
     throw InputError("the mesh is closed but encloses no volume; give it thickness, or make it a cloth");
 }
 
-// Union by the smaller number, so that the result depends on nothing but the edges.
-int root_of(std::vector<int>& parent, int v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-void require_one_piece(const Mesh& mesh, const std::vector<Edge>& edges) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.vertices()));
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const Edge& edge : edges) {
-    const int one = root_of(parent, edge.first), other = root_of(parent, edge.second);
-    parent[std::max(one, other)] = std::min(one, other);
-  }
-  int pieces = 0;
-  for (int v = 0; v < mesh.vertices(); ++v) pieces += parent[v] == v;
-  if (pieces > 1)
+void require_one_piece(const Mesh& mesh) {
+  const std::size_t count = pieces(mesh).size();
+  if (count > 1)
     throw InputError(
         fmt::format("the mesh is {} separate surfaces that would fall apart; join them into one, or make "
                     "each a body of its own",
-                    pieces));
+                    count));
 }
 
 }  // namespace
@@ -103,8 +97,9 @@ Eigen::MatrixX3d outward_normals(const Mesh& mesh) {
 
 void require_solid(const Mesh& mesh) {
   const std::vector<Edge> edges = distinct_edges(mesh);
-  for (const Edge& edge : edges) require_two_faces(mesh, edge);
-  require_one_piece(mesh, edges);
+  const auto open = std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.face.size() == 1; });
+  for (const Edge& edge : edges) require_two_faces(mesh, edge, open);
+  require_one_piece(mesh);
   require_volume(mesh);
 }
 

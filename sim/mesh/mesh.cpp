@@ -1,17 +1,37 @@
 // A mesh moved and measured.
 #include "sim/mesh/mesh.h"
 
+#include <algorithm>
+
 #include "sim/mesh/mesh_edges.h"
 
 namespace billow::sim {
+namespace {
 
-Mesh transformed(const Mesh& mesh, const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d& translation) {
+template <class Corners>
+void reverse_corners(const Face& face, Corners& of_corner) {
+  std::reverse(of_corner.begin(), of_corner.begin() + corner_count(face));
+}
+
+// Every face seen from its other side.
+void turn_over(Mesh& mesh) {
+  for (std::size_t f = 0; f < mesh.uv.size(); ++f) reverse_corners(mesh.face[f], mesh.uv[f]);
+  for (Face& face : mesh.face) reverse_corners(Face(face), face);
+  for (std::size_t f = 0; f < mesh.layout.uv_corner.size(); ++f)
+    reverse_corners(mesh.layout.face[f], mesh.layout.uv_corner[f]);
+  for (Face& face : mesh.layout.face) reverse_corners(Face(face), face);
+}
+
+}  // namespace
+
+Mesh transformed(const Mesh& mesh, const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation) {
   const auto move = [&](const Eigen::MatrixX3d& position) -> Eigen::MatrixX3d {
-    return ((scale * position) * rotation.transpose()).rowwise() + translation.transpose();
+    return (position * linear.transpose()).rowwise() + translation.transpose();
   };
   Mesh moved = mesh;
   moved.position = move(mesh.position);
   moved.layout.loose = move(mesh.layout.loose);
+  if (linear.determinant() < 0.0) turn_over(moved);
   return moved;
 }
 

@@ -92,6 +92,41 @@ std::vector<int> select(const Mesh& mesh, const GroupName& wanted) {
                                fmt::join(names, "', '")));
 }
 
+// The weights of that name (v); none where the mesh has none.
+std::optional<Eigen::VectorXf> weights_of(const Mesh& mesh, const std::string& name) {
+  if (const auto found = mesh.weight.find(name); found != mesh.weight.end()) return found->second;
+  constexpr std::string_view channels[] = {"red", "green", "blue"};
+  const auto channel = std::find(std::begin(channels), std::end(channels), name);
+  if (channel != std::end(channels) && mesh.colour.rows() > 0)
+    return mesh.colour.col(static_cast<Eigen::Index>(channel - std::begin(channels)));
+  const auto group = mesh.group.find(name);
+  if (group == mesh.group.end()) return std::nullopt;
+  Eigen::VectorXf weight = Eigen::VectorXf::Zero(mesh.vertices());
+  for (const int v : group->second) weight(v) = 1.0f;
+  return weight;
+}
+
+std::string weight_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const auto& [name, weight] : mesh.weight) names.push_back(name);
+  if (mesh.colour.rows() > 0) names.insert(names.end(), {"red", "green", "blue"});
+  for (const auto& [name, vertices] : mesh.group) names.push_back(name);
+  if (names.empty()) return "the mesh has neither weights nor colours nor groups";
+  return fmt::format("the mesh has '{}'", fmt::join(names, "', '"));
+}
+
+std::vector<int> select(const Mesh& mesh, const WeightAbove& wanted) {
+  const std::optional<Eigen::VectorXf> weight = weights_of(mesh, wanted.name);
+  if (!weight) throw InputError(fmt::format("there are no weights '{}'; {}", wanted.name, weight_names(mesh)));
+  std::vector<int> above;
+  for (int v = 0; v < mesh.vertices(); ++v)
+    if ((*weight)(v) > wanted.bound) above.push_back(v);
+  if (above.empty())
+    throw InputError(fmt::format("no vertex has a weight '{}' over {:.6g}: they go from {:.6g} to {:.6g}", wanted.name,
+                                 wanted.bound, weight->minCoeff(), weight->maxCoeff()));
+  return above;
+}
+
 }  // namespace
 
 Words<Corner> words(Corner) {

@@ -19,8 +19,14 @@ struct VertexList {
 struct GroupName {
   std::string name;
 };
-/// Which vertices a scene means: a corner, a list, all inside a box (edges included), or a mesh group.
-using Selector = std::variant<Corner, VertexList, Eigen::AlignedBox3d, GroupName>;
+/// The vertices whose weight is above a bound. A weight is a number of each vertex that the file names, a colour (red,
+/// green or blue, from 0 to 1), or a group, which weighs 1.
+struct WeightAbove {
+  std::string name;
+  double bound = 0.5;
+};
+/// Which vertices a scene means: a corner, a list, all inside a box (edges included), a mesh group, or by weight.
+using Selector = std::variant<Corner, VertexList, Eigen::AlignedBox3d, GroupName, WeightAbove>;
 
 /// The vertices a selector picks, ascending. Throws InputError when it picks none or names one that does not exist.
 /// A corner is the vertex nearest that corner of the rectangle which its UVs fill when the mesh has UVs, else of the

@@ -241,7 +241,7 @@ Mesh box_mesh(const Eigen::Vector3d& centre, const Eigen::Vector3d& size, const 
   PolygonSoup soup;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool far : {false, true}) add_side(soup, size, cells, axis, far);
-  return transformed(weld(soup), rotation, 1.0, centre);
+  return transformed(weld(soup), rotation, centre);
 }
 
 }  // namespace billow::sim

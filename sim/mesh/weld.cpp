@@ -48,7 +48,8 @@ std::vector<int> surviving_corners(const Face& face, const std::vector<int>& num
 
 // Fills faces and per-corner texture coordinates; faces still hold position numbers, unused ones included.
 void add_faces(const PolygonSoup& soup, const std::vector<int>& number, Mesh& mesh) {
-  for (const Face& raw : soup.face) {
+  for (std::size_t f = 0; f < soup.face.size(); ++f) {
+    const Face& raw = soup.face[f];
     const std::vector<int> corner = surviving_corners(raw, number);
     if (corner.empty()) continue;
     Face face{-1, -1, -1, -1};
@@ -60,6 +61,7 @@ void add_faces(const PolygonSoup& soup, const std::vector<int>& number, Mesh& me
     }
     mesh.face.push_back(face);
     if (soup.uv.rows() > 0) mesh.uv.push_back(uv);
+    if (!soup.face_material.empty()) mesh.face_material.push_back(soup.face_material[f]);
   }
   if (mesh.face.empty()) throw InputError("the mesh has no face with an area; export it with its faces");
 }
@@ -78,7 +80,27 @@ std::vector<int> drop_unused(int positions, Mesh& mesh) {
   return vertex;
 }
 
-// Positions, colours and groups of the vertices that stayed; a vertex takes those of its first raw copy.
+void fill_groups(const PolygonSoup& soup, const std::vector<int>& vertex_of_raw, Mesh& mesh) {
+  for (const auto& [name, members] : soup.group) {
+    std::vector<int> vertices;
+    for (const int raw : members)
+      if (vertex_of_raw[raw] >= 0) vertices.push_back(vertex_of_raw[raw]);
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    if (!vertices.empty()) mesh.group.emplace(name, std::move(vertices));
+  }
+}
+
+void fill_weights(const PolygonSoup& soup, const std::vector<int>& vertex_of_raw, Mesh& mesh) {
+  for (const auto& [name, raw_weight] : soup.weight) {
+    Eigen::VectorXf& weight = mesh.weight[name];
+    weight.resize(mesh.position.rows());
+    for (Eigen::Index r = raw_weight.size() - 1; r >= 0; --r)
+      if (vertex_of_raw[r] >= 0) weight(vertex_of_raw[r]) = raw_weight(r);
+  }
+}
+
+// Positions, colours, groups and weights of the vertices that stayed; a vertex takes those of its first raw copy.
 void fill_vertices(const PolygonSoup& soup, const std::vector<int>& vertex_of_raw, Mesh& mesh) {
   const bool coloured = soup.colour.rows() > 0;
   if (coloured) mesh.colour.resize(mesh.position.rows(), 3);
@@ -88,14 +110,8 @@ void fill_vertices(const PolygonSoup& soup, const std::vector<int>& vertex_of_ra
     mesh.position.row(vertex) = soup.position.row(r);
     if (coloured) mesh.colour.row(vertex) = soup.colour.row(r);
   }
-  for (const auto& [name, members] : soup.group) {
-    std::vector<int> vertices;
-    for (const int raw : members)
-      if (vertex_of_raw[raw] >= 0) vertices.push_back(vertex_of_raw[raw]);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    if (!vertices.empty()) mesh.group.emplace(name, std::move(vertices));
-  }
+  fill_groups(soup, vertex_of_raw, mesh);
+  fill_weights(soup, vertex_of_raw, mesh);
 }
 
 // The layout of raw vertices that are the file's own.
@@ -138,6 +154,9 @@ Mesh weld(const PolygonSoup& soup) {
   for (int& n : number) n = vertex[n];
   fill_vertices(soup, number, mesh);
   mesh.layout = welded_layout(soup, number);
+  mesh.material = soup.material;
+  mesh.linear_colour = soup.linear_colour;
+  mesh.ignored = soup.ignored;
   return mesh;
 }
 

@@ -39,7 +39,7 @@ void find_bounds(DrawnSheet& sheet) {
 
 DrawnSheet wavy_sheet(int n) {
   DrawnSheet sheet = flat_grid(n, 1.0f);
-  sheet.body.texture = checker();
+  sheet.body.finish[0] = {.texture = checker(), .colour = Eigen::Vector3f::Ones()};
   for (int p = 0; p < n * n; ++p) {
     const float u = sheet.state.position(p, 0), down = 0.5f - sheet.state.position(p, 1);
     sheet.state.position(p, 2) = (0.03f + 0.09f * down) * std::sin(15.0f * u) + 0.15f * down * down;

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "sim/body/cloth.h"
+#include "sim/import/mesh_import.h"
 #include "sim/limit/certificate.h"
-#include "sim/mesh/mesh_import.h"
 #include "sim/mesh/shapes.h"
 
 namespace billow::test {

@@ -114,9 +114,9 @@ TEST(GlbFile, WhatNeverMovesHasNoTargets) {
 
 TEST(GlbFile, BodiesShareTheirTexture) {
   GlbPart part = square();
-  part.drawn.texture = render::Image(2, 2);
+  part.drawn.finish[0].texture = render::Image(2, 2);
   GlbPart other = part;
-  other.drawn.texture.pixels[5] = 9;
+  other.drawn.finish[0].texture.pixels[5] = 9;
   const Glb glb(glb_file({part, part, other}, {{0.0, {flat(0), flat(0), flat(0)}}}));
   EXPECT_EQ(glb.document["images"].size(), 2u);
   const auto texture = [&](int m) {

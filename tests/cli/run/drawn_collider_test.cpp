@@ -37,7 +37,7 @@ TEST_F(DrawnColliders, ComeAfterTheBodiesAndBeforeTheMotes) {
   const std::vector<sim::SurfaceState> states = drawn_->surfaces(at(0.0));
   ASSERT_EQ(bodies.size(), 4u);
   ASSERT_EQ(states.size(), 4u);
-  EXPECT_EQ(bodies[1].colour, Eigen::Vector3f(1.0f, 0.0f, 0.0f));
+  EXPECT_EQ(bodies[1].finish[0].colour, Eigen::Vector3f(1.0f, 0.0f, 0.0f));
   for (std::size_t b = 0; b < 4; ++b) EXPECT_EQ(states[b].position.rows(), bodies[b].surface.points());
   EXPECT_EQ(bodies[3].surface.points(), 5 * 6);
 }

@@ -81,7 +81,7 @@ TEST_F(ScenePins, AreRefusedWithTheirPlace) {
   EXPECT_EQ(error("[{corner: top_left, pivot: middle}]"),
             "scene.yaml:11:40: pivot must be a list [x, y, z], not 'middle'");
   EXPECT_EQ(error("[{motion: [{time: 1}]}]"),
-            "scene.yaml:11:14: a pin has one of the keys corner, vertices, box and group; this one has 0");
+            "scene.yaml:11:14: a pin has one of the keys corner, vertices, box, group and weights; this one has 0");
 }
 
 TEST_F(ScenePins, MoveAVertexByOneOfThemAlone) {

@@ -71,7 +71,7 @@ TEST(Alpha, CompositedOverTheBackgroundIsTheOpaqueFrame) {
 TEST(Alpha, HasTheColoursOfTheBodyAtItsEdges) {
   Settings settings = test::frontal_settings();
   DrawnSheet sheet = test::flat_sheet();
-  sheet.body.colour = {0.8f, 0.1f, 0.1f};
+  sheet.body.finish[0].colour = {0.8f, 0.1f, 0.1f};
   sheet.state.position *= 0.97f;  // edges within pixels
   const Image seen = draw_sheet(sheet, View::textured, transparent(settings));
   const std::uint8_t* middle = seen.row(32) + 4 * 32;

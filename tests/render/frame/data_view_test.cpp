@@ -135,7 +135,7 @@ TEST(DataView, DepthAndNormalsOfAPlaneAreRight) {
 
 TEST(DataView, ColoursAreUnlitAndPremultiplied) {
   DrawnSheet sheet = flat_sheet();
-  sheet.body.colour = {0.8f, 0.25f, 0.1f};
+  sheet.body.finish[0].colour = {0.8f, 0.25f, 0.1f};
   Settings settings = frontal_settings();
   settings.samples = 4;
   sheet.state.position.col(0).array() += 1.0f / focal;  // an edge through the middle of a column

@@ -294,7 +294,7 @@ TEST(MeshRenderer, HidesWhatIsBelowTheGround) {
 
 TEST(MeshRenderer, DrawsPlainColourWithoutATexture) {
   test::DrawnSheet sheet = flat_sheet();
-  sheet.body.colour = {0.8f, 0.1f, 0.1f};
+  sheet.body.finish[0].colour = {0.8f, 0.1f, 0.1f};
   const auto seen = centre(draw_sheet(sheet, View::textured, frontal_settings()));
   EXPECT_GT(seen[0], 2 * seen[1]);
 }

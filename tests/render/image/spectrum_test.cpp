@@ -9,7 +9,7 @@
 
 #include "sim/drawn/flat_layout.h"
 #include "sim/drawn/grid_sampling.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 
 namespace billow::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 #include "tests/support/mesh_files.h"
 
 namespace billow::sim {

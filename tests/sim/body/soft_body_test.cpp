@@ -59,7 +59,7 @@ Mesh bar(int length) {
 
 Mesh moved(const Mesh& mesh) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  return transformed(mesh, turn, 3.7, {5, -2, 9});
+  return transformed(mesh, 3.7 * turn, {5, -2, 9});
 }
 
 std::string refusal(const Mesh& mesh) {
@@ -119,7 +119,7 @@ TEST(SoftBody, RefusesAFlatMeshThatIsClosed) {
 
 TEST(SoftBody, RefusesSeveralPieces) {
   Mesh two = cube();
-  const Mesh other = transformed(cube(), Eigen::Matrix3d::Identity(), 1.0, {3, 0, 0});
+  const Mesh other = transformed(cube(), Eigen::Matrix3d::Identity(), {3, 0, 0});
   two.position.conservativeResize(16, 3);
   two.position.bottomRows(8) = other.position;
   for (Face face : other.face) two.face.push_back({face[0] + 8, face[1] + 8, face[2] + 8, face[3] + 8});

@@ -7,7 +7,7 @@
 
 #include "sim/body/cloth.h"
 #include "sim/drawn/cubic_spline.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 #include "tests/support/swimmers.h"
 
 namespace billow {

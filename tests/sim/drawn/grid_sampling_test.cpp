@@ -1,7 +1,7 @@
 // Particles laid out as a picture.
 #include "sim/drawn/grid_sampling.h"
 
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 #include "tests/support/mesh_files.h"
 
 namespace billow::sim {

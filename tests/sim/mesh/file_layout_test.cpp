@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 #include "tests/support/mesh_files.h"
 
 namespace billow::sim {
@@ -74,7 +74,7 @@ TEST(FileLayout, MovesWithTheMesh) {
   const Mesh mesh = import_mesh(folder.write("two.obj", obj));
   Eigen::Matrix3d turn;
   turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const Mesh moved = transformed(mesh, turn, 2.0, {1, 0, 0});
+  const Mesh moved = transformed(mesh, 2.0 * turn, {1, 0, 0});
   EXPECT_EQ(positions_of(moved).row(2), Eigen::RowVector3d(-9, 10, 10));
 }
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sim/body/cloth.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 
 namespace billow::sim {
 namespace {

@@ -111,7 +111,7 @@ TEST(Mesh, IsTransformedByScaleThenRotationThenTranslation) {
   const Mesh mesh = bare_mesh({{1, 2, 3}}, {});
   Eigen::Matrix3d quarter_about_z;
   quarter_about_z << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const Mesh moved = transformed(mesh, quarter_about_z, 2.0, {10, 20, 30});
+  const Mesh moved = transformed(mesh, 2.0 * quarter_about_z, {10, 20, 30});
   EXPECT_TRUE(moved.position.row(0).isApprox(Eigen::RowVector3d(10 - 4, 20 + 2, 30 + 6)));
 }
 

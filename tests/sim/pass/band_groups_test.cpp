@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/body/cloth.h"
-#include "sim/mesh/mesh_import.h"
+#include "sim/import/mesh_import.h"
 #include "sim/pass/spring_plan.h"
 
 namespace billow::sim {

@@ -1,0 +1,98 @@
+// Words for what a look at a mesh finds.
+#include "cli/scene/mesh_warnings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cli/scene/scene_pins.h"
+#include "sim/mesh/mesh_report.h"
+#include "sim/mesh/pieces.h"
+
+namespace billow::cli {
+namespace {
+
+std::string shown(const Eigen::Vector3d& place) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", place.x(), place.y(), place.z());
+}
+
+/// The pieces of a body with a pin at the start: those that hold one, and the rest.
+struct HeldPieces {
+  std::vector<std::vector<int>> held, loose;
+};
+
+HeldPieces held_pieces(const BodySpec& body) {
+  HeldPieces result;
+  const std::vector<int> pinned = held_vertices(body.pins, 0.0);
+  if (pinned.empty() || std::holds_alternative<FishSpec>(body.kind)) return result;
+  for (std::vector<int>& piece : sim::pieces(body.mesh)) {
+    const bool holds = std::any_of(piece.begin(), piece.end(),
+                                   [&](int v) { return std::binary_search(pinned.begin(), pinned.end(), v); });
+    (holds ? result.held : result.loose).push_back(std::move(piece));
+  }
+  return result;
+}
+
+void add_loose_pieces(const BodySpec& body, std::vector<std::string>& warnings) {
+  const HeldPieces pieces = held_pieces(body);
+  if (pieces.loose.empty()) return;
+  const auto largest = std::max_element(pieces.loose.begin(), pieces.loose.end(),
+                                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const Eigen::Vector3d middle = body.mesh.position(*largest, Eigen::all).colwise().mean().transpose();
+  warnings.push_back(fmt::format(
+      "{} of its mesh's {} pieces hold no pin and will fall, the largest {} vertices around {}, vertex {} among them; "
+      "pin them, join them to the rest, or make them a body of their own",
+      pieces.loose.size(), pieces.loose.size() + pieces.held.size(), largest->size(), shown(middle), largest->front()));
+}
+
+void add_unit(const sim::MeshReport& report, std::vector<std::string>& warnings) {
+  const std::string_view unit = sim::likely_unit(report.box);
+  if (!unit.empty())
+    warnings.push_back(fmt::format(
+        "its mesh is {:.4g} m long, counted in metres; if the file is in {}, say 'transform: {{unit: {}}}', "
+        "and if it is as it should be, 'unit: m'",
+        report.box.sizes().maxCoeff(), unit, unit));
+}
+
+void add_places(const sim::Places& places, std::string_view what, std::vector<std::string>& warnings) {
+  if (places.count == 0) return;
+  std::vector<std::string> where;
+  for (const Eigen::Vector3d& place : places.first) where.push_back(shown(place));
+  warnings.push_back(fmt::format("{} {}, at {}{}", places.count, what, fmt::join(where, ", "),
+                                 places.count > static_cast<int>(where.size()) ? " …" : ""));
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_warnings(const BodySpec& body, bool unit_given) {
+  std::vector<std::string> warnings;
+  if (body.mesh_file.empty()) return warnings;
+  for (const std::string& what : body.mesh.ignored)
+    warnings.push_back(fmt::format("not used of {}: {}", body.mesh_file.filename().string(), what));
+  if (std::holds_alternative<FishSpec>(body.kind)) return warnings;
+  const sim::MeshReport report = sim::report_of(body.mesh);
+  if (!unit_given) add_unit(report, warnings);
+  add_loose_pieces(body, warnings);
+  add_places(report.duplicate_faces, "faces of its mesh are there twice", warnings);
+  add_places(report.flat_faces, "faces of its mesh have no area", warnings);
+  return warnings;
+}
+
+std::vector<int> framed_vertices(const BodySpec& body) {
+  const HeldPieces pieces = held_pieces(body);
+  std::vector<int> framed;
+  if (pieces.loose.empty() || body.contact) return framed;
+  for (const std::vector<int>& piece : pieces.held) framed.insert(framed.end(), piece.begin(), piece.end());
+  std::sort(framed.begin(), framed.end());
+  return framed;
+}
+
+std::vector<std::string> mesh_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const BodySpec& body : scene.bodies)
+    for (const std::string& text : body.warnings) warnings.push_back(fmt::format("body {}: {}", body.name, text));
+  return warnings;
+}
+
+}  // namespace billow::cli

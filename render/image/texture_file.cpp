@@ -1,0 +1,123 @@
+// The only file that knows libjpeg, whose errors become exceptions before they cross a C++ frame.
+#include "render/image/texture_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include <jpeglib.h>
+
+#include "base/error.h"
+#include "render/image/png.h"
+
+namespace billow::render {
+namespace {
+
+constexpr unsigned max_size = 8192;  // [pixel] either way
+
+struct JpegErrors {
+  jpeg_error_mgr manager;  // first: libjpeg hands out its address
+  std::jmp_buf jump;
+  char message[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] void on_error(j_common_ptr jpeg) {
+  auto* errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  (*jpeg->err->format_message)(jpeg, errors->message);
+  std::longjmp(errors->jump, 1);
+}
+
+// A file that ends early is only warned of.
+void on_message(j_common_ptr jpeg, int level) {
+  if (level < 0) on_error(jpeg);
+}
+
+struct Jpeg {
+  Jpeg() {
+    decoder.err = jpeg_std_error(&errors.manager);
+    errors.manager.error_exit = on_error;
+    errors.manager.emit_message = on_message;
+    jpeg_create_decompress(&decoder);
+  }
+  ~Jpeg() { jpeg_destroy_decompress(&decoder); }
+  Jpeg(const Jpeg&) = delete;
+
+  jpeg_decompress_struct decoder;
+  JpegErrors errors;
+};
+
+// `calls` must own nothing: a jump skips destructors.
+template <class Calls>
+void run(Jpeg& jpeg, const std::string& name, const Calls& calls) {
+  if (setjmp(jpeg.errors.jump))
+    throw InputError(fmt::format("{}: the JPEG image is damaged: {}", name, jpeg.errors.message));
+  calls();
+}
+
+Image decode_jpeg(std::string_view bytes, const std::string& name) {
+  Jpeg jpeg;
+  run(jpeg, name, [&] {
+    jpeg_mem_src(&jpeg.decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    jpeg_read_header(&jpeg.decoder, TRUE);
+  });
+  if (jpeg.decoder.image_width > max_size || jpeg.decoder.image_height > max_size)
+    throw InputError(fmt::format("{}: the image has {} x {} pixels; at most {} x {} are read", name,
+                                 jpeg.decoder.image_width, jpeg.decoder.image_height, max_size, max_size));
+  if (jpeg.decoder.num_components == 4)
+    throw InputError(fmt::format("{}: the JPEG image is in CMYK, for print; save it in RGB", name));
+  jpeg.decoder.out_color_space = JCS_RGB;
+  Image image(static_cast<int>(jpeg.decoder.image_width), static_cast<int>(jpeg.decoder.image_height));
+  run(jpeg, name, [&] {
+    jpeg_start_decompress(&jpeg.decoder);
+    while (jpeg.decoder.output_scanline < jpeg.decoder.output_height) {
+      JSAMPROW row = image.row(static_cast<int>(jpeg.decoder.output_scanline));
+      jpeg_read_scanlines(&jpeg.decoder, &row, 1);
+    }
+    jpeg_finish_decompress(&jpeg.decoder);
+  });
+  return image;
+}
+
+}  // namespace
+
+Image decode_texture(std::string_view bytes, const std::string& name) {
+  if (bytes.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes, name);
+  if (bytes.starts_with("\x89PNG") || bytes.empty()) return decode_png(bytes, name);
+  throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", name));
+}
+
+Image read_texture(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  char head[3] = {};
+  in.read(head, sizeof head);
+  if (std::string_view(head, sizeof head) != "\xff\xd8\xff") return read_png(file);
+  const std::string rest{std::istreambuf_iterator<char>(in), {}};
+  return decode_jpeg(std::string(head, sizeof head) + rest, file.string());
+}
+
+bool has_alpha(const Image& image) {
+  if (image.channels != 4) return false;
+  for (std::size_t k = 3; k < image.pixels.size(); k += 4)
+    if (image.pixels[k] != 255) return true;
+  return false;
+}
+
+Image with_alpha(const Image& image, const Image& grey) {
+  Image result(image.width, image.height, 4);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* from = image.row(y) + image.channels * x;
+      const int grey_x = x * grey.width / image.width, grey_y = y * grey.height / image.height;
+      const std::uint8_t* alpha = grey.row(grey_y) + grey.channels * grey_x;
+      std::uint8_t* to = result.row(y) + 4 * x;
+      std::copy_n(from, 3, to);
+      to[3] = static_cast<std::uint8_t>((alpha[0] + alpha[1] + alpha[2] + 1) / 3);
+    }
+  return result;
+}
+
+}  // namespace billow::render

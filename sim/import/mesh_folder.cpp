@@ -1,0 +1,51 @@
+// Paths that lead out of a folder, and files that are read whole.
+#include "sim/import/mesh_folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace billow::sim {
+
+namespace fs = std::filesystem;
+
+MeshFolder::MeshFolder(const fs::path& mesh_file, std::uintmax_t max_file_bytes)
+    : folder_(fs::canonical(fs::absolute(mesh_file).parent_path())), max_file_bytes_(max_file_bytes) {}
+
+MeshFolder::Answer MeshFolder::ask(const fs::path& file) const {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(file.is_absolute() ? file : folder_ / file, error);
+  const auto [end, differs] = std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
+  if (error || end != folder_.end()) return Answer::outside;
+  if (!fs::is_regular_file(path, error)) return Answer::missing;
+  return fs::file_size(path, error) <= max_file_bytes_ ? Answer::allowed : Answer::too_large;
+}
+
+std::string MeshFolder::read(const std::string& file) const {
+  switch (ask(file)) {
+    case Answer::outside:
+      throw InputError(
+          fmt::format("it refers to '{}', which is outside its own folder; keep all files of a mesh together", file));
+    case Answer::missing:
+      throw InputError(fmt::format("it refers to '{}', which is not there; keep all files of a mesh together", file));
+    case Answer::too_large:
+      throw InputError(fmt::format("it refers to '{}', which has more than {} bytes", file, max_file_bytes_));
+    case Answer::allowed:
+      break;
+  }
+  return read_bytes(folder_ / file);
+}
+
+std::string read_bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError("it cannot be opened; check its permissions");
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw InputError("it cannot be read");
+  return bytes;
+}
+
+}  // namespace billow::sim

@@ -1,0 +1,33 @@
+// What a mesh file may open: its own folder's files and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace billow::sim {
+
+/// The folder tree that a mesh file stands in. A mesh may name any path as its material, buffer or texture.
+class MeshFolder {
+ public:
+  /// `max_file_bytes`: the largest file that is opened.
+  MeshFolder(const std::filesystem::path& mesh_file, std::uintmax_t max_file_bytes);
+
+  enum class Answer { allowed, outside, missing, too_large };
+  /// Whether `file` (absolute, or within the folder) is a regular file of the tree, links followed.
+  Answer ask(const std::filesystem::path& file) const;
+
+  /// The bytes of `file`. Throws InputError that names it and why it cannot be read.
+  std::string read(const std::string& file) const;
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::uintmax_t max_file_bytes_;
+};
+
+/// The bytes of a file. Throws InputError where it cannot be opened or read.
+std::string read_bytes(const std::filesystem::path& file);
+
+}  // namespace billow::sim
