@@ -157,7 +157,7 @@ int mesh_command(const MeshOptions& options) {
   const sim::Mesh mesh = sim::import_mesh(options.mesh);
   const sim::MeshReport report = sim::report_of(mesh);
   if (options.json) {
-    fmt::print("{}\n", as_json(mesh, report).dump(2));
+    fmt::print("{}\n", as_json(mesh, report).dump(2, ' ', false, Json::error_handler_t::replace));
     return exit_done;
   }
   fmt::print("{}: {} vertices, {} faces ({} triangles, {} quads)\n", options.mesh.string(), report.vertices,

@@ -117,7 +117,10 @@ void load_look(Look& look, sim::Mesh& mesh, const fs::path& mesh_file, const Fil
     look.finish = MeshFinishes(look, mesh, mesh_file, watch).take();
   }
   mesh.material.clear();
-  for (render::Finish& finish : look.finish) finish.alpha = look.alpha.value_or(finish.alpha);
+  for (render::Finish& finish : look.finish) {
+    finish.alpha = look.alpha.value_or(finish.alpha);
+    if (finish.alpha != AlphaMode::opaque) render::bleed_into_holes(finish.texture);
+  }
 }
 
 }  // namespace billow::cli

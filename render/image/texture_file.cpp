@@ -106,6 +106,45 @@ bool has_alpha(const Image& image) {
   return false;
 }
 
+// Wave by wave: a pixel takes the mean of the neighbours that have a colour before it.
+void bleed_into_holes(Image& image) {
+  if (image.channels != 4) return;
+  const int w = image.width, h = image.height;
+  std::vector<bool> coloured(std::size_t(w) * h);
+  for (std::size_t p = 0; p < coloured.size(); ++p) coloured[p] = image.pixels[4 * p + 3] != 0;
+  const auto around = [&](std::size_t p, const auto& visit) {
+    const int x = static_cast<int>(p % w), y = static_cast<int>(p / w);
+    if (x > 0) visit(p - 1);
+    if (x + 1 < w) visit(p + 1);
+    if (y > 0) visit(p - w);
+    if (y + 1 < h) visit(p + w);
+  };
+  std::vector<std::size_t> wave;
+  std::vector<bool> queued = coloured;
+  const auto queue_around = [&](std::size_t p) {
+    around(p, [&](std::size_t q) {
+      if (!queued[q]) queued[q] = true, wave.push_back(q);
+    });
+  };
+  for (std::size_t p = 0; p < coloured.size(); ++p)
+    if (coloured[p]) queue_around(p);
+  while (!wave.empty()) {
+    const std::vector<std::size_t> now = std::move(wave);
+    wave.clear();
+    for (const std::size_t p : now) {
+      int sum[3] = {}, count = 0;
+      around(p, [&](std::size_t q) {
+        if (!coloured[q]) return;
+        for (int c = 0; c < 3; ++c) sum[c] += image.pixels[4 * q + c];
+        ++count;
+      });
+      for (int c = 0; c < 3; ++c) image.pixels[4 * p + c] = static_cast<std::uint8_t>(sum[c] / count);
+    }
+    for (const std::size_t p : now) coloured[p] = true;
+    for (const std::size_t p : now) queue_around(p);
+  }
+}
+
 Image with_alpha(const Image& image, const Image& grey) {
   Image result(image.width, image.height, 4);
   for (int y = 0; y < image.height; ++y)

@@ -22,4 +22,8 @@ bool has_alpha(const Image& image);
 /// `image` with the mean of `grey`'s colours as its alpha (nearest pixel where the sizes differ).
 Image with_alpha(const Image& image, const Image& grey);
 
+/// Gives the pixels that nothing is seen of the colours of their nearest neighbours: filtering would mix into edges
+/// whatever the file has there.
+void bleed_into_holes(Image& image);
+
 }  // namespace billow::render

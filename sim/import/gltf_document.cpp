@@ -186,7 +186,8 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, std::uintmax_t max
   else
     root_ = parse(std::move(bytes));
   const std::string version = gltf_text(gltf_part(root_, "asset"), "version");
-  if (version.starts_with("1.")) throw OldGltf();
+  // glTF 1.0 may name no version; its lists are objects.
+  if (version.starts_with("1.") || (version.empty() && gltf_part(root_, "meshes").is_object())) throw OldGltf();
   if (!version.starts_with("2."))
     throw InputError(version.empty() ? "it is no glTF: it names no asset version"
                                      : fmt::format("it is of glTF {}, which is not read; export it as 2.0", version));

@@ -21,8 +21,11 @@ constexpr std::size_t most_nodes = 100000;
 
 // Extensions that change nothing of a mesh's shape, or that are read.
 bool is_known(const std::string& extension) {
-  return extension == "KHR_mesh_quantization" || extension == "KHR_texture_transform" ||
-         extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual";
+  constexpr std::string_view harmless[] = {"KHR_mesh_quantization", "KHR_texture_",   "EXT_texture_",
+                                           "MSFT_texture_",         "KHR_materials_", "KHR_lights_",
+                                           "KHR_technique_webgl",   "KHR_xmp"};
+  return std::any_of(std::begin(harmless), std::end(harmless),
+                     [&](std::string_view known) { return extension.starts_with(known); });
 }
 
 void check_extensions(const json& root, SoupBuilder& builder) {
