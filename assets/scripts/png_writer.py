@@ -22,11 +22,19 @@ def write_indexed_png(path, rows, palette):
     write_png(path, (len(rows[0]), len(rows)), (8, 3), colours, [b"\0" + row for row in rows])
 
 
-def write_rgb_png(path, rows):
-    """rows: one bytes object of r, g, b per pixel for each line, top line first. Each byte is stored as its difference
-    from the one above it, which compresses pictures without large even areas."""
-    filtered, above = [], bytes(len(rows[0]))
+def differences(rows):
+    """Each byte as its difference from the one above it, which compresses pictures without large even areas."""
+    above = bytes(len(rows[0]))
     for row in rows:
-        filtered.append(b"\2" + bytes((a - b) & 255 for a, b in zip(row, above)))
+        yield b"\2" + bytes((a - b) & 255 for a, b in zip(row, above))
         above = row
-    write_png(path, (len(rows[0]) // 3, len(rows)), (8, 2), b"", filtered)
+
+
+def write_rgb_png(path, rows):
+    """rows: one bytes object of r, g, b per pixel for each line, top line first."""
+    write_png(path, (len(rows[0]) // 3, len(rows)), (8, 2), b"", list(differences(rows)))
+
+
+def write_rgba_png(path, rows):
+    """rows: one bytes object of r, g, b, a per pixel for each line, top line first."""
+    write_png(path, (len(rows[0]) // 4, len(rows)), (8, 6), b"", list(differences(rows)))

@@ -25,6 +25,7 @@ int check_command(const SceneOptions& options) {
   fmt::print(stderr, "{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})\n",
              scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
              structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
+  for (const std::string& line : mesh_lines(scene)) fmt::print(stderr, "{}\n", line);
   for (const std::string& line : level_lines(simulation)) fmt::print(stderr, "{}\n", line);
   for (const std::string& line : contact_lines(scene)) fmt::print(stderr, "{}\n", line);
   for (const std::string& warning : mesh_warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);

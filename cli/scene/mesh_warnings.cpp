@@ -74,9 +74,31 @@ std::vector<std::string> mesh_warnings(const BodySpec& body, bool unit_given) {
   const sim::MeshReport report = sim::report_of(body.mesh);
   if (!unit_given) add_unit(report, warnings);
   add_loose_pieces(body, warnings);
+  add_places(report.crowded_edges, "edges of its mesh belong to more than two faces", warnings);
+  add_places(report.turned_edges, "edges of its mesh lie between faces that face opposite ways", warnings);
   add_places(report.duplicate_faces, "faces of its mesh are there twice", warnings);
   add_places(report.flat_faces, "faces of its mesh have no area", warnings);
+  add_places(report.tiny_edges, "edges of its mesh are shorter than a thousandth of the mean", warnings);
+  if (report.dropped_faces > 0)
+    warnings.push_back(
+        fmt::format("{} faces of its file collapse to a line or a point and are left out", report.dropped_faces));
   return warnings;
+}
+
+std::vector<std::string> mesh_lines(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const BodySpec& body : scene.bodies) {
+    if (body.mesh_file.empty()) continue;
+    const sim::MeshReport report = sim::report_of(body.mesh);
+    const Eigen::Vector3d size = report.box.sizes();
+    lines.push_back(fmt::format(
+        "mesh: body {}, {} vertices, {} triangles, {} quads, {} pieces, {}, {} seam edges, {:.3g} x {:.3g} x {:.3g} m",
+        body.name, report.vertices, report.triangles, report.quads, report.pieces.size(),
+        report.closed() ? std::string("closed")
+                        : fmt::format("{} borders ({} holes)", report.borders.size(), report.holes()),
+        report.seams.count, size.x(), size.y(), size.z()));
+  }
+  return lines;
 }
 
 std::vector<int> framed_vertices(const BodySpec& body) {

@@ -42,7 +42,7 @@ void check_name(const std::string& name, const std::string& where) {
 
 void read_look(MapReader& map, const std::filesystem::path& folder, Look& look) {
   // A colour alone is what the body shall have, whatever its mesh's file says.
-  const std::string texture = map.text("texture", map.find("colour") ? "none" : "mesh");
+  const std::string texture = map.text("texture", find_colour(map, "colour") ? "none" : "mesh");
   look.texture_where = map.where("texture");
   look.of_mesh = texture == "mesh";
   if (texture != "none" && texture != "mesh") look.texture_file = folder / texture;

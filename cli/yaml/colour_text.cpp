@@ -56,10 +56,14 @@ Eigen::Vector3f read_colour(const Node& node, std::string_view name) {
   return to_linear(parse_colour(node, name).srgb);
 }
 
+const Node* find_colour(const MapReader& map, std::string_view key) {
+  return map.find(key, "; a colour that begins with # needs quotes");
+}
+
 // The default passes through its text, so that the record reads back to exactly the same colour.
 Eigen::Vector3f read_colour(MapReader& map, std::string_view key, const Eigen::Vector3f& fallback) {
   const NodePtr default_text = make_scalar(hex_colour(fallback), true);
-  const Node* node = map.find(key, "; a colour that begins with # needs quotes");
+  const Node* node = find_colour(map, key);
   const WrittenColour colour = parse_colour(node ? *node : *default_text, key);
   map.record(key, colour.record);
   return to_linear(colour.srgb);

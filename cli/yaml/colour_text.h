@@ -14,6 +14,9 @@ Eigen::Vector3f read_colour(const Node& node, std::string_view name);
 /// The same for the key of a map, which it enters in the map's record. The default is given in linear light.
 Eigen::Vector3f read_colour(MapReader& map, std::string_view key, const Eigen::Vector3f& fallback);
 
+/// The value of a key that holds a colour; null when the key is missing. Throws InputError on a key without a value.
+const Node* find_colour(const MapReader& map, std::string_view key);
+
 /// "#rrggbb" nearest to a linear-light RGB.
 std::string hex_colour(const Eigen::Vector3f& linear);
 

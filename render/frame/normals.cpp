@@ -4,10 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace billow::render {
 namespace {
+
+constexpr float least_length = 1e-6f;
 
 float angle_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -34,8 +35,14 @@ Eigen::MatrixX3f point_normals(const sim::Surface& surface, const Eigen::MatrixX
                                  surface.point(surface.triangle(t, 2)));
     add_triangle(points, position, normal);
   }
-  const Eigen::VectorXf length = normal.rowwise().norm().cwiseMax(std::numeric_limits<float>::min());
-  return normal.array().colwise() / length.array();
+  const Eigen::VectorXf length = normal.rowwise().norm();
+  for (Eigen::Index p = 0; p < normal.rows(); ++p) {
+    if (length(p) > least_length)
+      normal.row(p) /= length(p);
+    else
+      normal.row(p).stableNormalize();  // faces that cancel each other: the squares of what is left would vanish
+  }
+  return normal;
 }
 
 }  // namespace billow::render

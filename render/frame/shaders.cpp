@@ -51,8 +51,13 @@ out vec4 pixel;
 
 // How much of the pixel the surface covers, or how much of what is behind it hides.
 #if defined(CUT_OUT)
+// Near by the edge lies where the alpha crosses the cutoff; where texels are finer than pixels, a pixel's mean alpha is
+// the share of it that is covered, or threads thinner than a pixel would vanish.
 float shown(float alpha) {
-  float share = (alpha * opacity - cutoff) / max(fwidth(alpha * opacity), 1e-4) + 0.5;
+  float edge = (alpha * opacity - cutoff) / max(fwidth(alpha * opacity), 1e-4) + 0.5;
+  vec2 texel = place * vec2(textureSize(albedo_map, 0));
+  float level = 0.5 * log2(max(dot(dFdx(texel), dFdx(texel)), dot(dFdy(texel), dFdy(texel))));
+  float share = mix(edge, alpha * opacity, clamp(level, 0.0, 1.0));
   if (share <= 0.0) discard;
   return min(share, 1.0);
 }
@@ -120,7 +125,7 @@ uniform sampler2D albedo_map;
 uniform float opacity;
 uniform float hole_below;
 void drop_holes() {
-  if (texture(albedo_map, place).a * opacity < hole_below) discard;
+  if (textureLod(albedo_map, place, 0.0).a * opacity < hole_below) discard;
 }
 #else
 void drop_holes() {}

@@ -47,7 +47,7 @@ Header read_header(const std::string& text) {
   Header header;
   Words words(text);
   std::string_view word = words.next();
-  if (begins_number(word)) return header;  // the keyword may be missing
+  if (!word.ends_with("OFF") && begins_number(word)) return header;  // the keyword may be missing
   header.texture = takes(word, "ST");
   header.colours = takes(word, "C");
   header.normals = takes(word, "N");
@@ -133,6 +133,7 @@ class Attempt {
     int count = 0;
     const bool to_line_end = !layout_.face_colours;
     while (to_line_end ? words_.more_on_line() : count < *layout_.face_colours) {
+      if (!words_.more_on_line()) throw InputError(fmt::format("line {}: a face lacks its colours", words_.line()));
       words_.number("a colour of a face");
       if (++count > 4) throw InputError(fmt::format("line {}: a face has more than four colours", words_.line()));
     }

@@ -97,7 +97,7 @@ TEST(SoftBody, RefusesAMeshWithAHole) {
   Mesh open = cube();
   open.face.pop_back();
   EXPECT_THAT(refusal(open), HasSubstr("belongs to 1 face, and a soft body's surface must be closed"));
-  EXPECT_THAT(refusal(test::quad_grid(3, 3)), HasSubstr("close the mesh, or make it a cloth"));
+  EXPECT_THAT(refusal(test::quad_grid(3, 3)), HasSubstr("close the mesh, say 'close_holes: true', or make it a cloth"));
 }
 
 TEST(SoftBody, RefusesAnEdgeOfThreeFaces) {
