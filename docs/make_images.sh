@@ -21,6 +21,7 @@ one two_bodies 30 textured two_bodies "${small[@]}"
 one choi_ko 100 textured choi_ko "${small[@]}"
 one fish 60 textured fish "${small[@]}"
 one sphere 30 textured sphere "${small[@]}" -D duration=1.4
+one lace 30 textured lace "${small[@]}" -D duration=1.4
 one table 34 textured table "${small[@]}" -D duration=1.5
 one flag 60 textured flag "${small[@]}" -D duration=2.5
 one curtain 75 textured curtain "${small[@]}" -D duration=3.1

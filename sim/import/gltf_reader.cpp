@@ -339,6 +339,8 @@ class GltfReader {
                                        vertex, vertices));
         polygon.corner.push_back(first + static_cast<long long>(vertex));
       }
+      const long long a = polygon.corner[0], b = polygon.corner[1], c = polygon.corner[2];
+      if (mode != 4 && (a == b || b == c || c == a)) continue;  // how strips turn a corner
       if (mirrored) std::swap(polygon.corner[1], polygon.corner[2]);  // a mirror turns counter-clockwise into clockwise
       builder_.add_polygon(polygon);
     }

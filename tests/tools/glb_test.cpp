@@ -55,6 +55,33 @@ TEST_F(GlbOfARun, HasNothingThatTheValidatorMinds) {
   }
 }
 
+// Several materials, a texture inside, a hole, glass and colours of vertices, read back by our own reader too.
+TEST_F(GlbOfARun, KeepsTheLooksOfMeshes) {
+  folder_.write(
+      "two.obj",
+      "mtllib two.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 1 1 1\nv 2 0 0 1 1 1\nv 2 1 0 1 1 1\n"
+      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl lace\nf 1/1 2/2 3/3 4/4\nusemtl glass\nf 2/1 5/2 6/3 3/4\n");
+  folder_.write("two.mtl", "newmtl lace\nmap_Kd lace.png\nnewmtl glass\nKd 1 0.5 0\nd 0.25\n");
+  fs::copy_file(fs::path(BILLOW_SOURCE_DIR) / "assets/textures/lace.png", folder_.path() / "lace.png");
+  folder_.write("two.yaml",
+                "billow: 1\nduration: 0.2\nbodies: [{name: two, cloth: {mesh: two.obj, pins: [{corner: top_left}]}}]\n"
+                "render: {size: [64, 36], views: [velocity]}\n");
+  const test::ToolResult run = test::run_tool({"render", "two.yaml", "--cache", "glb", "-o", "out"}, folder_.path());
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string file = (folder_.path() / "out/caches/scene.glb").string();
+  const test::ToolResult result = test::run_program(
+      "node", {std::string(BILLOW_SOURCE_DIR) + "/tests/tools/validate_glb.js", BILLOW_NODE_FOLDER, file},
+      folder_.path());
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json report = json::parse(result.output)[0];
+  EXPECT_EQ(report["issues"]["numErrors"], 0) << report["issues"]["messages"].dump(1);
+  EXPECT_EQ(report["issues"]["numWarnings"], 0) << report["issues"]["messages"].dump(1);
+  const json seen = json::parse(test::run_tool({"mesh", file, "--json"}, folder_.path()).output);
+  EXPECT_EQ(seen["materials"], json::array({"two_1", "two_2"}));
+  EXPECT_EQ(seen["vertices"], 6);
+  EXPECT_EQ(seen["colours"], true);
+}
+
 TEST_F(GlbOfARun, IsTheSameForAnyNumberOfThreadsAndListed) {
   std::vector<std::string> arguments = drape("0.4");
   arguments.insert(arguments.end(), {"--threads", "1"});

@@ -42,7 +42,7 @@ TEST(MeshCommand, PrintsJson) {
   EXPECT_EQ(seen["borders"].size(), 1u);
   EXPECT_EQ(seen["pieces"].size(), 1u);
   EXPECT_NEAR(seen["area"].get<double>(), 4.0, 1e-12);
-  EXPECT_EQ(seen["weights"], json::array({"confidence"}));
+  EXPECT_EQ(seen["weights"], json::array({"alpha", "confidence"}));
   EXPECT_EQ(seen["colours"], true);
   EXPECT_EQ(seen["not_used"], json::array({"elements 'edge'"}));
 }

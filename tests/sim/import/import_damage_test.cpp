@@ -88,10 +88,10 @@ TEST_P(Damage, BeyondRecognition) {
   EXPECT_LT(slowest_, longest_import);
 }
 
-// A file of one format under another's name must not be sniffed into the other's importer.
+// A file of one format under another's name must not be sniffed into the other's importer. glTF and GLB are one.
 TEST_P(Damage, ByTheWrongName) {
   for (const std::string_view other : {"obj", "off", "ply", "stl", "gltf", "glb"})
-    if (other != GetParam()) {
+    if (other != GetParam() && !(other.starts_with("gl") && std::string_view(GetParam()).starts_with("gl"))) {
       SCOPED_TRACE(other);
       EXPECT_FALSE(survives(test::mesh_file(other, test::triangulated(test::quad_grid(3, 3)))));
     }
