@@ -78,7 +78,8 @@ void add_run_options(CLI::App& c, Request& r) {
   c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
       ->type_name("FORMATS");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
-  c.add_flag("--resume", r.resume, "Finish or extend an earlier run of the same scene in the folder")
+  c.add_flag("--resume", r.resume,
+             "Finish or extend an earlier run of the same scene in the folder; what is damaged is made again")
       ->excludes(overwrite);
   c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))

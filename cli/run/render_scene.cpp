@@ -128,7 +128,7 @@ class SceneRun {
       return std::make_unique<StoredStates>(run_, store(options_.from / StateStore::folder_name));
     if (!keeps_states(options_, folder_)) return std::make_unique<SimulatedStates>(run_, last_frame);
     return std::make_unique<KeptStates>(run_, last_frame, store(folder_.states()),
-                                        go_on || options_.existing == Existing::resume);
+                                        go_on || options_.existing == Existing::resume, progress_);
   }
 
   // What the pictures need to know beforehand: from the scene where it says it all, else from a survey, whose states
