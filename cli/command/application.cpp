@@ -84,6 +84,8 @@ void add_run_options(CLI::App& c, Request& r) {
   c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  c.add_flag("--durable", r.render.durable,
+             "Wait for the disk before a file gets its name: power cuts leave whole files");
   add_progress(c, r.render.progress);
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));

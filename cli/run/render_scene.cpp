@@ -177,6 +177,7 @@ class SceneRun {
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
+    settle_names(folder_.path());
     say_end(progress_, report, folder_, options_.simulate_only);
   }
 

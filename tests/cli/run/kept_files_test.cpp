@@ -125,5 +125,12 @@ TEST_F(KeptFiles, DamagedStatesAreSimulatedAgain) {
   }
 }
 
+TEST_F(KeptFiles, DurableOnesAreTheSame) {
+  ASSERT_EQ(run("render", "film").status, 0);
+  const ToolResult durable = run("render", "durable", {"--durable"});
+  ASSERT_EQ(durable.status, 0) << durable.errors;
+  EXPECT_THAT(differing("durable", "film", {"textured", "data"}), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace billow
