@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/standard_streams.h"
 #include "base/suggest.h"
 #include "cli/command/commands.h"
 #include "cli/run/interrupt.h"
@@ -276,9 +277,18 @@ int run_command(const std::function<int()>& command) {
   }
 }
 
+// `status`, of a command that has printed what it had to say, unless that went nowhere: an answer that nobody got is
+// none.
+int status_of_output(int status) {
+  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
+  const bool answered = status == exit_done || status == exit_images_differ;
+  return printed || !answered ? status : report("the output could not be written", exit_not_written);
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
+  open_standard_streams();
   ignore_write_signals();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
@@ -289,12 +299,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     app.exit(error);
-    return asked_for_help ? exit_done : exit_usage;
+    return asked_for_help ? status_of_output(exit_done) : exit_usage;
   }
   request.render.command = typed_command(argc, argv);
-  const int status = run_command(request.command);
-  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
-  return printed || status != exit_done ? status : report("the output could not be written", exit_not_written);
+  return status_of_output(run_command(request.command));
 }
 
 }  // namespace billow::cli
