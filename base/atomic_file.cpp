@@ -15,6 +15,8 @@
 namespace billow {
 namespace {
 
+std::atomic<bool> durable = false;
+
 // Unique in this process and, with the process's number, on this machine.
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
@@ -59,7 +61,7 @@ void AtomicFile::append(std::string_view bytes) {
 void AtomicFile::commit() {
   // A full disk may show only here: small files sit in the stream's buffer until it is closed.
   std::FILE* stream = std::exchange(stream_, nullptr);
-  const bool flushed = std::fflush(stream) == 0;
+  const bool flushed = std::fflush(stream) == 0 && (!durable || fsync(fileno(stream)) == 0);
   const int flush_error = errno;
   if (std::fclose(stream) != 0) fail();
   if (!flushed) {
@@ -72,6 +74,19 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail() const {
   throw OutputError(fmt::format("cannot write {}: {}", target_.string(), std::strerror(errno)));
+}
+
+void write_durably() { durable = true; }
+
+void settle_names(const std::filesystem::path& folder) {
+  if (!durable) return;
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool settled = descriptor >= 0 && fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (!settled) throw OutputError(fmt::format("cannot write {}: {}", folder.string(), std::strerror(error)));
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_directory() && !entry.is_symlink()) settle_names(entry.path());
 }
 
 void write_file_atomically(const std::filesystem::path& file, const std::string& contents) {

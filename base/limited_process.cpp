@@ -71,6 +71,7 @@ void restrict_self(const ProcessLimits& limits) {
 void silence() {
   const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, standard);
+  close(null);
 }
 
 void write_all(int out, std::string_view bytes) {
@@ -198,7 +199,10 @@ std::string reply_of_child(const std::function<std::string()>& work, const Proce
   if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
   const Descriptor in(ends[0]);
   const pid_t pid = fork();
-  if (pid == 0) serve(work, limits, ends[1]);
+  if (pid == 0) {
+    close(ends[0]);  // where few files may be open, `work` needs each
+    serve(work, limits, ends[1]);
+  }
   close(ends[1]);
   if (pid < 0) fail("fork");
 

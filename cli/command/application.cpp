@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/standard_streams.h"
 #include "base/suggest.h"
 #include "cli/command/commands.h"
 #include "cli/run/interrupt.h"
@@ -79,11 +80,14 @@ void add_run_options(CLI::App& c, Request& r) {
   c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
       ->type_name("FORMATS");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.overwrite, "Replace an earlier run in the folder");
-  c.add_flag("--resume", r.resume, "Finish or extend an earlier run of the same scene in the folder")
+  c.add_flag("--resume", r.resume,
+             "Finish or extend an earlier run of the same scene in the folder; what is damaged is made again")
       ->excludes(overwrite);
   c.add_option("--threads", r.render.threads, "Threads for simulating, drawing and encoding (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  c.add_flag("--durable", r.render.durable,
+             "Wait for the disk before a file gets its name: power cuts leave whole files");
   add_progress(c, r.render.progress);
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
@@ -283,9 +287,18 @@ int run_command(const std::function<int()>& command) {
   }
 }
 
+// `status`, of a command that has printed what it had to say, unless that went nowhere: an answer that nobody got is
+// none.
+int status_of_output(int status) {
+  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
+  const bool answered = status == exit_done || status == exit_images_differ;
+  return printed || !answered ? status : report("the output could not be written", exit_not_written);
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
+  open_standard_streams();
   ignore_write_signals();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
@@ -296,12 +309,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     app.exit(error);
-    return asked_for_help ? exit_done : exit_usage;
+    return asked_for_help ? status_of_output(exit_done) : exit_usage;
   }
   request.render.command = typed_command(argc, argv);
-  const int status = run_command(request.command);
-  const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
-  return printed || status != exit_done ? status : report("the output could not be written", exit_not_written);
+  return status_of_output(run_command(request.command));
 }
 
 }  // namespace billow::cli

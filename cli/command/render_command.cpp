@@ -1,4 +1,5 @@
 // billow render: a scene's frames, strip, record and page.
+#include "base/atomic_file.h"
 #include "base/process_start.h"
 #include "cli/command/commands.h"
 #include "cli/run/state_store.h"
@@ -8,6 +9,7 @@ namespace billow::cli {
 
 int render_command(const RenderOptions& options) {
   Progress progress(options.progress, process_start());
+  if (options.durable) write_durably();
   const Scene scene = read_scene(options.scene, options.overrides, progress);
   // What is wrong with these is found before the step is certified, which takes seconds.
   range_of(options, scene);

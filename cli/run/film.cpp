@@ -1,6 +1,7 @@
 // The film's three stages and the queues between them.
 #include "cli/run/film.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -168,7 +169,14 @@ class Film {
     } while (frames.hand_over());
   }
 
-  bool wanted(render::View view, long frame) const { return !folder_.keeps(view, frame); }
+  // Whether the frame is there already, and whole: what a power cut or a copy has spoilt is drawn again, and said.
+  bool keeps(render::View view, long frame) {
+    if (!folder_.keeps(view, frame)) return false;
+    const std::filesystem::path file = folder_.frame(view, frame);
+    const auto fault = render::picture_fault(file, run_.scene.render.width, run_.scene.render.height);
+    if (fault) progress_.say(fmt::format("warning: {} {}; it is drawn again", file.string(), *fault));
+    return !fault;
+  }
 
   void draw() {
     std::optional<render::MeshRenderer> renderer;  // no GL where nothing is drawn
@@ -195,7 +203,7 @@ class Film {
 
   // False when nobody encodes any more.
   bool draw(render::MeshRenderer& renderer, render::View view, const Snapshot& snapshot) {
-    if (!wanted(view, snapshot.frame)) return ++report_.images_kept, true;
+    if (keeps(view, snapshot.frame)) return ++report_.images_kept, true;
     FinishedImage finished{folder_.frame(view, snapshot.frame), {}};
     {
       const Stopwatch watch(report_.draw);

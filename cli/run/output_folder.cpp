@@ -169,8 +169,7 @@ std::vector<long> OutputFolder::frames_drawn(long total) const {
 
 bool OutputFolder::keeps(render::View view, long number) const {
   std::error_code error;
-  const fs::path file = frame(view, number);
-  return keeps_ && fs::is_regular_file(file, error) && fs::file_size(file, error) > 0;
+  return keeps_ && fs::is_regular_file(frame(view, number), error);
 }
 
 }  // namespace billow::cli

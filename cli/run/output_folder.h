@@ -73,7 +73,7 @@ class OutputFolder {
   std::vector<long> frames_drawn(long total) const;
   /// The folder of geometry caches; it need not be there.
   std::filesystem::path caches() const { return folder_ / "caches"; }
-  /// True when resuming and the frame is there already.
+  /// True when resuming and there is a file of the frame, whole or not.
   bool keeps(render::View view, long frame) const;
 
  private:

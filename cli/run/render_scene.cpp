@@ -131,7 +131,7 @@ class SceneRun {
       return std::make_unique<StoredStates>(run_, store(options_.from / StateStore::folder_name));
     if (!keeps_states(options_, folder_)) return std::make_unique<SimulatedStates>(run_, last_frame);
     return std::make_unique<KeptStates>(run_, last_frame, store(folder_.states()),
-                                        go_on || options_.existing == Existing::resume);
+                                        go_on || options_.existing == Existing::resume, progress_);
   }
 
   // What the pictures need to know beforehand: from the scene where it says it all, else from a survey, whose states
@@ -180,6 +180,7 @@ class SceneRun {
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
+    settle_names(folder_.path());
     say_end(progress_, report, folder_, options_.simulate_only);
   }
 

@@ -20,7 +20,8 @@ struct RenderOptions {
   std::filesystem::path from;     // a run whose states are drawn; empty: simulate
   bool simulate_only = false;     // keep the states, and draw nothing
   Existing existing = Existing::refuse;
-  int threads = 0;  // 0: one per core
+  int threads = 0;       // 0: one per core
+  bool durable = false;  // files are on the disk before they have their names
   ProgressStyle progress = ProgressStyle::automatic;
   std::string command;  // as it was typed, for run.json
 };

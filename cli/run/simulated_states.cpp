@@ -29,18 +29,31 @@ SimulatedStates::SimulatedStates(const Run& run, long last_frame)
 
 RunFacts SimulatedStates::facts() const { return facts_of(*watched_); }
 
-KeptStates::KeptStates(const Run& run, long last_frame, StateStore store, bool go_on)
+KeptStates::KeptStates(const Run& run, long last_frame, StateStore store, bool go_on, Progress& progress)
     : run_(run), store_(std::move(store)), moments_(all_schedules(run.scene, last_frame)) {
-  if (go_on && store_.holds_this_run()) checkpoint_ = store_.read_checkpoint();
-  if (checkpoint_ && !holds_all_before_checkpoint()) checkpoint_.reset();
+  if (go_on && store_.holds_this_run()) checkpoint_ = whole_checkpoint(progress);
   store_.write_record({});
 }
 
-// A strip with other columns asks for other moments.
-bool KeptStates::holds_all_before_checkpoint() const {
+// One that all states before it are there with.
+std::optional<sim::WatchedRun::Checkpoint> KeptStates::whole_checkpoint(Progress& progress) const {
+  try {
+    const auto checkpoint = store_.read_checkpoint();
+    return checkpoint && holds_all_before(*checkpoint) ? checkpoint : std::nullopt;
+  } catch (const InputError& error) {
+    progress.say(fmt::format("warning: {}; the simulation begins again", error.what()));
+    return std::nullopt;
+  }
+}
+
+// A strip with other columns asks for other moments. What is there is read, as no state may turn out to be damaged when
+// those before it have been handed on.
+bool KeptStates::holds_all_before(const sim::WatchedRun::Checkpoint& checkpoint) const {
   Moments moments = moments_;
-  for (double moment = moments.take(); moment <= checkpoint_->solver.state.time; moment = moments.take())
+  for (double moment = moments.take(); moment <= checkpoint.solver.state.time; moment = moments.take()) {
     if (!store_.has(moment)) return false;
+    store_.read(moment);
+  }
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/run/progress.h"
 #include "cli/run/run.h"
 #include "cli/run/schedule.h"
 #include "cli/run/state_source.h"
@@ -25,16 +26,17 @@ class SimulatedStates : public StateSource {
 
 /// The same, with every state written to a store. What the store holds already of the same motion, up to its last
 /// checkpoint, is read instead, and the simulation goes on from there: the states are those of a run that never
-/// stopped.
+/// stopped. Where one of these files is damaged the simulation begins again, and says why.
 class KeptStates : public StateSource {
  public:
   /// `go_on`: use what the store holds. Throws InputError when that is of another motion.
-  KeptStates(const Run& run, long last_frame, StateStore store, bool go_on);
+  KeptStates(const Run& run, long last_frame, StateStore store, bool go_on, Progress& progress);
   std::optional<sim::WatchedRun::Sample> next() override;
   RunFacts facts() const override;
 
  private:
-  bool holds_all_before_checkpoint() const;
+  std::optional<sim::WatchedRun::Checkpoint> whole_checkpoint(Progress& progress) const;
+  bool holds_all_before(const sim::WatchedRun::Checkpoint& checkpoint) const;
   void start(double first_moment);
   void end(const std::string& divergence);
 

@@ -3,6 +3,7 @@
 
 #include "render/image/exr.h"
 #include "render/image/png.h"
+#include "render/image/png_fault.h"
 
 namespace billow::render {
 namespace {
@@ -17,5 +18,9 @@ struct Writer {
 }  // namespace
 
 void write_picture(const std::filesystem::path& file, const Picture& picture) { std::visit(Writer{file}, picture); }
+
+std::optional<std::string> picture_fault(const std::filesystem::path& file, int width, int height) {
+  return file.extension() == ".exr" ? exr_fault(file, width, height) : png_fault(file, width, height);
+}
 
 }  // namespace billow::render
