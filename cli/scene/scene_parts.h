@@ -45,7 +45,8 @@ struct BodyDraft {
   std::vector<PinDraft> pins;
   FormulaDraft stiffness_factor, mass_factor;  // of a soft body
   std::string pins_where;
-  NodePtr open_contact;  // entered for `contact` where the body does not say it; null where it does
+  std::string shear_where;  // of a cloth's material, where it says one
+  NodePtr open_contact;     // entered for `contact` where the body does not say it; null where it does
 };
 
 /// `folder` is what relative paths are relative to; `index` gives a nameless body its name.
