@@ -91,9 +91,9 @@ Eigen::MatrixX3d rolled(const Eigen::MatrixX3d& flat, double angle, double radiu
   return position;
 }
 
-// Hinges bend around vertices, so that half a cell at the ends of the roll stays flat, and a whole one of a corner.
+// Hinges bend around vertices, so that half a cell at both ends of the roll stays flat, and more of a corner.
 TEST(Material, ARolledSheetHasTheEnergyOfItsRigidity) {
-  const double bend = 1e-4, radius = 10.0;
+  const double bend = 1e-4, radius = 100.0;
   for (const Weave weave : weaves)
     for (const int across : {4, 8, 16, 32}) {
       const Structure cloth = cloth_of(test::sheet(weave, 1.0, 1.0, across), {isotropic_membrane(stretch), bend});
@@ -102,8 +102,12 @@ TEST(Material, ARolledSheetHasTheEnergyOfItsRigidity) {
         const double gained =
             energy(cloth, rolled(cloth.rest_position, angle, radius)) - energy(cloth, cloth.rest_position);
         const double ratio = gained / (bend / (2.0 * radius * radius));
-        EXPECT_GT(ratio, 1.0 - 1.6 / across - 0.03);
-        EXPECT_LT(ratio, 1.03);
+        if (angle == 0.25 * std::numbers::pi) {
+          EXPECT_GT(ratio, 1.0 - 1.6 / across - 0.03);
+          EXPECT_LT(ratio, 1.03);
+        } else {
+          EXPECT_NEAR(ratio / (1.0 - 1.0 / across), 1.0, across == 4 ? 0.08 : 0.03);
+        }
         RecordProperty("roll_" + std::to_string(static_cast<int>(weave)) + "_" + std::to_string(across) + "_" +
                            std::to_string(std::lround(angle * 180.0 / std::numbers::pi)),
                        std::to_string(ratio));
