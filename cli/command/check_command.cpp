@@ -6,6 +6,7 @@
 #include "cli/run/watched_scene.h"
 #include "cli/scene/contact_text.h"
 #include "cli/scene/filter_text.h"
+#include "cli/scene/material_text.h"
 #include "cli/scene/mesh_warnings.h"
 #include "cli/scene/simulation.h"
 #include "cli/scene/step_warnings.h"
@@ -26,6 +27,7 @@ int check_command(const SceneOptions& options) {
              scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
              structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
   for (const std::string& line : mesh_lines(scene)) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : material_lines(scene, structure)) fmt::print(stderr, "{}\n", line);
   for (const std::string& line : level_lines(simulation)) fmt::print(stderr, "{}\n", line);
   for (const std::string& line : contact_lines(scene)) fmt::print(stderr, "{}\n", line);
   for (const std::string& warning : mesh_warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);

@@ -38,6 +38,7 @@ struct BodyRows {
 
 /// A body whose particles are the vertices of its mesh.
 struct MeshBody {
+  std::optional<double> density;         // [kg/m^2] of a cloth, [kg/m^3] of a soft body; none: its mass is given
   std::optional<double> max_eigenvalue;  // [1/s^2] scales all stiffnesses so that lambda_max(M^-1 K) at rest is this
 
   /// What blows on it.

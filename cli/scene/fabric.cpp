@@ -3,9 +3,10 @@
 #include "cli/scene/fabric.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "sim/body/membrane_springs.h"
 
 namespace billow::cli {
 
@@ -41,11 +42,7 @@ std::vector<std::string_view> fabric_words() {
   return words;
 }
 
-// With springs k along edges and K along diagonals the sheet has the shear modulus K, and a strip of it the modulus
-// E = c - K^2 / c, c = k + K.
-double structural_stiffness(const Fabric& fabric) {
-  return 0.5 * (fabric.stretch + std::hypot(fabric.stretch, 2.0 * fabric.shear)) - fabric.shear;
-}
+double structural_stiffness(const Fabric& fabric) { return sim::edge_stiffness({fabric.stretch, fabric.shear}); }
 
 // Two edges of length l that turn by phi = kappa l leave 2 l cos(phi/2) between their far ends, l phi^2 / 4 less than
 // at rest: k (l phi^2)^2 / 32 for a spring there, of which each l^2 has one a direction, where the fabric has
@@ -57,6 +54,6 @@ double bend_stiffness(const Fabric& fabric, double edge) {
 
 // Rolled up along an edge, each l^2 has a beam of length 2 l at the curvature kappa and two of 2 sqrt(2) l at kappa /
 // 2: EI kappa^2 l (1 + 1 / sqrt 2) in all, where the fabric has B kappa^2 l^2 / 2.
-double beam_rigidity(const Fabric& fabric, double edge) { return fabric.bend * edge / (2.0 + std::sqrt(2.0)); }
+double beam_rigidity(double bend, double edge) { return bend * edge / (2.0 + std::sqrt(2.0)); }
 
 }  // namespace billow::cli

@@ -31,7 +31,8 @@ double structural_stiffness(const Fabric& fabric);
 /// [N/m] of bend springs over two edges of `edge` [m] each, which then take as much energy as the fabric where folds
 /// have a radius of 2 cm: at most a tenth of the edges' stiffness, because they resist stretching as well.
 double bend_stiffness(const Fabric& fabric, double edge);
-/// [N m^2] of Choi and Ko's beams along the edges and diagonals of a square grid, which have the fabric's rigidity.
-double beam_rigidity(const Fabric& fabric, double edge);
+/// [N m^2] of Choi and Ko's beams along the edges and diagonals of a square grid, which give it the flexural rigidity
+/// `bend` [N m].
+double beam_rigidity(double bend, double edge);
 
 }  // namespace billow::cli

@@ -117,6 +117,19 @@ void read_mesh(KindMap& kind, const std::filesystem::path& folder, BodyDraft& dr
   draft.placement = read_placement(transform, kind.section("transform.rotate"));
 }
 
+bool read_density(KindMap& kind, MeshBody& body) {
+  body.density = kind.map.number_or_word("density");
+  if (body.density && kind.map.find("mass"))
+    fail_at(kind.map.where("density"), "density and mass both say what the body weighs; leave one of them out");
+  return body.density.has_value();
+}
+
+void refuse_beside_material(KindMap& kind, std::string_view key) {
+  if (kind.map.find(key))
+    fail_at(kind.map.where(key),
+            fmt::format("{} and material both say how hard the springs are; leave one of them out", key));
+}
+
 void read_mass(KindMap& kind, sim::ClothOptions& options) {
   options.mass = kind.map.number("mass", options.mass);
   read_mass_distribution(kind, options);

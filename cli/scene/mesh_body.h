@@ -24,6 +24,10 @@ KindMap kind_map(MapReader& body, std::string_view key);
 
 /// mesh: and transform:.
 void read_mesh(KindMap& kind, const std::filesystem::path& folder, BodyDraft& draft);
+/// density: with the refusal of a mass beside it; returns whether it is given.
+bool read_density(KindMap& kind, MeshBody& body);
+/// Refuses `key` beside material:.
+void refuse_beside_material(KindMap& kind, std::string_view key);
 /// mass: and mass_distribution:.
 void read_mass(KindMap& kind, sim::ClothOptions& options);
 /// mass_distribution: alone.

@@ -59,8 +59,10 @@ const Section cloth{"cloth",
                      {"transform"},
                      {"fabric", {}, fabric_words()},
                      {"mass", above_0(1e6, "kg"), {"fabric"}},
+                     {"density", above_0(1e6, "kg/m²"), {"none"}},
                      {"mass_distribution", {}, {"area", "uniform"}},
                      {"model", {}, all_words<sim::SpringModel>()},
+                     {"material", {}, {"none"}},
                      {"stiffness"},
                      {"buckling_rigidity", at_least_0(1e6, "N m²"), {"fabric"}},
                      {"strain_limit", above_0(10), {"none"}},
@@ -73,6 +75,11 @@ const Section stiffness{"stiffness",
                          {"shear", at_least_0(1e12, "N/m")},
                          {"bend", at_least_0(1e12, "N/m"), {"fabric"}},
                          {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
+
+const Section material{"material",
+                       {{"stretch", above_0(1e12, "N/m")},
+                        {"shear", above_0(1e12, "N/m"), {"isotropic"}},
+                        {"bend", at_least_0(1e6, "N m")}}};
 
 const Section damping{"damping",
                       {{"model", {}, all_words<sim::DampingModel>()},
@@ -107,7 +114,9 @@ const Section soft{"soft",
                     {"transform"},
                     {"close_holes", {}, {"true", "false"}},
                     {"mass", above_0(1e6, "kg")},
+                    {"density", above_0(1e6, "kg/m³"), {"none"}},
                     {"mass_distribution", {}, {"area", "uniform"}},
+                    {"material", {}, {"none"}},
                     {"stiffness"},
                     {"variation"},
                     {"damping"},
@@ -120,6 +129,8 @@ const Section soft_stiffness{"stiffness",
                               {"bend", at_least_0(1e12, "N/m")},
                               {"interior", above_0(1e12, "N/m")},
                               {"max_eigenvalue", above_0(1e16, "s⁻²"), {"none"}}}};
+
+const Section soft_material{"material", {{"young", above_0(1e12, "Pa")}}};
 
 const Section variation{"variation", {{"stiffness"}, {"mass"}}};
 
@@ -278,6 +289,7 @@ const std::vector<PlacedSection>& all() {
                                                    {"bodies[].cloth.transform", &transform},
                                                    {"bodies[].cloth.transform.rotate", &axis_angle},
                                                    {"bodies[].cloth.stiffness", &stiffness},
+                                                   {"bodies[].cloth.material", &material},
                                                    {"bodies[].cloth.damping", &damping},
                                                    {"bodies[].cloth.pins[]", &pin},
                                                    {"bodies[].cloth.pins[].motion[]", &place_key},
@@ -285,6 +297,7 @@ const std::vector<PlacedSection>& all() {
                                                    {"bodies[].soft.transform", &transform},
                                                    {"bodies[].soft.transform.rotate", &axis_angle},
                                                    {"bodies[].soft.stiffness", &soft_stiffness},
+                                                   {"bodies[].soft.material", &soft_material},
                                                    {"bodies[].soft.variation", &variation},
                                                    {"bodies[].soft.damping", &damping},
                                                    {"bodies[].soft.pins[]", &pin},

@@ -46,6 +46,7 @@ struct BodyDraft {
   FormulaDraft stiffness_factor, mass_factor;  // of a soft body
   std::string pins_where;
   bool unit_given = false;  // the scene says what the mesh's lengths are, or scales them
+  std::string shear_where;  // of a cloth's material, where it says one
   NodePtr open_contact;     // entered for `contact` where the body does not say it; null where it does
 };
 

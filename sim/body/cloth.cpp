@@ -2,9 +2,14 @@
 #include "sim/body/cloth.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "base/error.h"
+#include "sim/body/bending_springs.h"
 #include "sim/body/cloth_springs.h"
+#include "sim/body/needed_springs.h"
 #include "sim/mesh/regular_values.h"
 
 namespace billow::sim {
@@ -44,10 +49,40 @@ double stiffness_of(SpringKind kind, const ClothOptions& options) {
   return kind == SpringKind::shear ? options.shear : options.bend;
 }
 
+// Choi and Ko's cloth bends along diagonals as well, and so does a material, alike in all directions.
+BendLines bend_lines(const ClothOptions& options) {
+  const bool material_bends = options.material && options.material->bend > 0.0;
+  return options.spring_model == SpringModel::choi_ko || material_bends ? BendLines::edges_and_diagonals
+                                                                        : BendLines::edges;
+}
+
+// A spring that carries a tension at rest is that much shorter than it lies, and one that pushes longer: by this share
+// of its length at most, or else it is made stiffer.
+constexpr double most_strained_at_rest = 0.1;
+
+// Tensions at rest per length, as stiffnesses and rest lengths.
+void strain(const Eigen::VectorXd& force_density, Structure& cloth) {
+  for (int s = 0; s < cloth.springs(); ++s) {
+    cloth.stiffness(s) = std::max(cloth.stiffness(s), std::abs(force_density(s)) / most_strained_at_rest);
+    if (cloth.stiffness(s) > 0.0) cloth.rest_length(s) *= 1.0 - force_density(s) / cloth.stiffness(s);
+  }
+}
+
+void make_of(const SheetMaterial& material, const Mesh& mesh, const ClothOptions& options,
+             const std::vector<SpringPair>& pairs, Structure& cloth) {
+  cloth.stiffness = membrane_stiffness(mesh, pairs, material.membrane);
+  if (options.spring_model == SpringModel::choi_ko) {
+    for (int s = 0; s < cloth.springs(); ++s)
+      if (cloth.kind[s] == SpringKind::bend) cloth.stiffness(s) = edge_stiffness(material.membrane);
+  } else if (material.bend > 0.0) {
+    strain(bending_force_density(mesh, pairs, material.bend), cloth);
+  }
+  make_regular(cloth.stiffness);
+  make_regular(cloth.rest_length);
+}
+
 void add_springs(const Mesh& mesh, const ClothOptions& options, Structure& cloth) {
-  const bool interlaced = options.spring_model == SpringModel::choi_ko;
-  const std::vector<SpringPair> pairs =
-      cloth_springs(mesh, interlaced ? BendLines::edges_and_diagonals : BendLines::edges);
+  const std::vector<SpringPair> pairs = cloth_springs(mesh, bend_lines(options));
   const Eigen::Index m = static_cast<Eigen::Index>(pairs.size());
   cloth.spring.resize(m, 2);
   cloth.rest_length.resize(m);
@@ -65,6 +100,7 @@ void add_springs(const Mesh& mesh, const ClothOptions& options, Structure& cloth
                        " are joined but lie at the same place; repair the mesh");
   }
   make_regular(cloth.rest_length);
+  if (options.material) make_of(*options.material, mesh, options, pairs, cloth);
 }
 
 void pin(const std::vector<int>& vertices, Structure& cloth) {
@@ -106,7 +142,7 @@ Structure build_cloth(const Mesh& mesh, const ClothOptions& options) {
                  .friction = options.friction,
                  .mean_rest_length = mean_structural_length(cloth),
                  .buckling_rigidity = options.buckling_rigidity}};
-  return cloth;
+  return options.material ? with_needed_springs(std::move(cloth)) : cloth;
 }
 
 }  // namespace billow::sim

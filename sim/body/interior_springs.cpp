@@ -118,7 +118,7 @@ std::vector<int> a_neighbour_of_each(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<std::pair<int, int>> interior_pairs(const Mesh& mesh) {
+std::vector<InteriorRay> interior_rays(const Mesh& mesh) {
   const std::vector<Triangle> triangles = triangles_of(mesh);
   std::vector<int> number(triangles.size());
   std::vector<Box> box;
@@ -141,10 +141,16 @@ std::vector<std::pair<int, int>> interior_pairs(const Mesh& mesh) {
       }
     }
   });
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<InteriorRay> rays;
   for (int v = 0; v < mesh.vertices(); ++v)
-    for (const int met : corner[v])
-      if (met >= 0) pairs.push_back(std::minmax(v, met));
+    for (std::size_t r = 0; r < rays_per_vertex; ++r)
+      if (corner[v][r] >= 0) rays.push_back({v, corner[v][r], r == 0});
+  return rays;
+}
+
+std::vector<std::pair<int, int>> interior_pairs(const Mesh& mesh) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const InteriorRay& ray : interior_rays(mesh)) pairs.push_back(std::minmax(ray.from, ray.to));
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;

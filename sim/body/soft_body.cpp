@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "sim/body/interior_springs.h"
+#include "sim/body/needed_springs.h"
+#include "sim/body/solid_springs.h"
 #include "sim/mesh/closed_surface.h"
 
 namespace billow::sim {
@@ -61,6 +63,10 @@ Structure build_soft_body(const Mesh& mesh, const SoftBodyOptions& options) {
   require_solid(mesh);
   Structure body = build_cloth(mesh, options.surface);
   add_interior(without_springs_of(body, interior_pairs(mesh)), options, body);
+  if (options.young) {
+    body.stiffness = solid_stiffness(mesh, body, *options.young);
+    body = with_needed_springs(std::move(body));
+  }
   vary_stiffness(options.stiffness_factor, body);
   vary_mass(options.mass_factor, body);
   return body;
