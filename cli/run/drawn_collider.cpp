@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "cli/run/painted_surface.h"
 #include "sim/mesh/creases.h"
 
 namespace billow::cli {
@@ -47,7 +48,7 @@ DrawnCollider::DrawnCollider(const ColliderSpec& spec, const Eigen::AlignedBox3d
   if (solid.half_space) square_ = square(*solid.half_space, bodies);
   const sim::Mesh drawn = solid.half_space ? square_ : sim::split_at_creases(solid.mesh, crease);
   position_ = drawn.position;
-  surface_ = sim::build_surface(drawn);
+  surface_ = painted(sim::build_surface(drawn), drawn, spec);
 }
 
 sim::SurfaceState DrawnCollider::carried(const Eigen::MatrixX3d& points, double time,

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "render/image/srgb.h"
+#include "cli/run/painted_surface.h"
 #include "sim/body/stretch.h"
 
 namespace billow::cli {
@@ -21,15 +21,6 @@ Eigen::Vector3d origin_for(const Eigen::MatrixX3d& position) {
   const Eigen::Vector3d middle = 0.5 * (low + high);
   const bool far = middle.cwiseAbs().maxCoeff() > far_away * (high - low).norm();
   return far ? middle : Eigen::Vector3d::Zero();
-}
-
-// The surface in the colours of its mesh's vertices, where the body shows them.
-sim::Surface painted(sim::Surface surface, const BodySpec& body) {
-  if (!body.shows_vertex_colours) return surface;
-  surface.colour = body.mesh.colour(surface.point, Eigen::all);
-  if (!body.mesh.linear_colour)
-    surface.colour = surface.colour.unaryExpr([](float c) { return static_cast<float>(render::srgb_to_linear(c)); });
-  return surface;
 }
 
 // The box around what of a body a picture should show.
@@ -56,8 +47,8 @@ DrawnScene::DrawnScene(const Scene& scene, const Simulation& simulation)
 std::vector<render::DrawnBody> DrawnScene::solids() const {
   std::vector<render::DrawnBody> drawn;
   for (std::size_t b = 0; b < skin_.size(); ++b)
-    drawn.push_back(
-        {painted(skin_[b].surface, scene_.bodies[b]), scene_.bodies[b].finish, simulation_.structure().body[b].name});
+    drawn.push_back({painted(skin_[b].surface, scene_.bodies[b].mesh, scene_.bodies[b]), scene_.bodies[b].finish,
+                     simulation_.structure().body[b].name});
   for (const DrawnCollider& collider : collider_) drawn.push_back(collider.drawn());
   return drawn;
 }

@@ -22,6 +22,14 @@ void add_mesh(Hash& hash, const std::filesystem::path& mesh_file, const sim::Mes
   hash.add(bytes_of(mesh.face.data(), mesh.face.size()));
 }
 
+// Materials may stand in a file beside the mesh's.
+void add_finish(Hash& hash, const render::Finish& finish) {
+  const float numbers[] = {finish.colour.x(), finish.colour.y(), finish.colour.z(),
+                           finish.opacity,    finish.cutoff,     static_cast<float>(finish.alpha)};
+  hash.add(bytes_of(numbers, std::size(numbers)));
+  hash.add(bytes_of(finish.texture.pixels.data(), finish.texture.pixels.size()));
+}
+
 using Keys = std::initializer_list<std::string_view>;
 
 bool among(std::string_view key, const Keys& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
@@ -67,8 +75,7 @@ std::string hash_of(const Scene& scene, const std::string& record, bool looks) {
     add_mesh(hash, mesh_file, mesh);
     if (looks && !look.texture_file.empty()) hash.add_file(look.texture_file);
     if (looks && look.texture_file.empty())
-      for (const render::Finish& finish : look.finish)
-        hash.add(bytes_of(finish.texture.pixels.data(), finish.texture.pixels.size()));
+      for (const render::Finish& finish : look.finish) add_finish(hash, finish);
   };
   for (const BodySpec& body : scene.bodies) add(body.mesh_file, body.mesh, body);
   for (const ColliderSpec& collider : scene.colliders) add(collider.mesh_file, collider.solid.mesh, collider);

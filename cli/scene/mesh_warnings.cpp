@@ -110,10 +110,32 @@ std::vector<int> framed_vertices(const BodySpec& body) {
   return framed;
 }
 
+namespace {
+
+constexpr double float_step = 0x1p-23;  // of single precision, relative
+constexpr double coarse_share = 1e-3;   // of the mean edge: steps that show
+
+// The formats of caches hold single precision; glb stands at the scene's middle.
+void add_coarse_caches(const Scene& scene, const BodySpec& body, std::vector<std::string>& warnings) {
+  const bool caches = std::any_of(scene.caches.begin(), scene.caches.end(),
+                                  [](CacheFormat format) { return format != CacheFormat::glb; });
+  if (!caches || body.mesh.face.empty()) return;
+  const double step = float_step * body.mesh.position.cwiseAbs().maxCoeff();
+  if (step > coarse_share * sim::mean_edge_length(body.mesh))
+    warnings.push_back(fmt::format(
+        "body {}: caches hold single precision, steps of {:.2g} m so far from the origin; move the scene there, or "
+        "take 'glb', which stands at the scene's middle, or the states of 'billow simulate'",
+        body.name, step));
+}
+
+}  // namespace
+
 std::vector<std::string> mesh_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
-  for (const BodySpec& body : scene.bodies)
+  for (const BodySpec& body : scene.bodies) {
     for (const std::string& text : body.warnings) warnings.push_back(fmt::format("body {}: {}", body.name, text));
+    add_coarse_caches(scene, body, warnings);
+  }
   return warnings;
 }
 

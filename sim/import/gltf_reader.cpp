@@ -340,7 +340,7 @@ class GltfReader {
         polygon.corner.push_back(first + static_cast<long long>(vertex));
       }
       const long long a = polygon.corner[0], b = polygon.corner[1], c = polygon.corner[2];
-      if (mode != 4 && (a == b || b == c || c == a)) continue;  // how strips turn a corner
+      if (mode != 4 && (a == b || b == c || c == a)) continue;        // how strips turn a corner
       if (mirrored) std::swap(polygon.corner[1], polygon.corner[2]);  // a mirror turns counter-clockwise into clockwise
       builder_.add_polygon(polygon);
     }
@@ -356,7 +356,11 @@ class GltfReader {
 }  // namespace
 
 PolygonSoup read_gltf(const std::filesystem::path& file, const ImportLimits& limits) {
-  return GltfReader(file, limits).soup();
+  try {
+    return GltfReader(file, limits).soup();
+  } catch (const json::exception& error) {  // a value of another type than the format has there
+    throw InputError(fmt::format("its JSON is not what glTF has there ({}); it is broken", error.what()));
+  }
 }
 
 }  // namespace billow::sim

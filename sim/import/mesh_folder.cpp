@@ -2,6 +2,8 @@
 #include "sim/import/mesh_folder.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -42,7 +44,7 @@ std::string MeshFolder::read(const std::string& file) const {
 
 std::string read_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError("it cannot be opened; check its permissions");
+  if (!in) throw InputError(fmt::format("it cannot be opened: {}", std::strerror(errno)));
   std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (in.bad()) throw InputError("it cannot be read");
   return bytes;

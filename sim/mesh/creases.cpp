@@ -56,6 +56,7 @@ Mesh split_at_creases(const Mesh& mesh, double angle) {
   Mesh split;
   split.face = mesh.face;
   split.uv = mesh.uv;
+  split.face_material = mesh.face_material;
   for (std::size_t f = 0; f < mesh.face.size(); ++f)
     for (int c = 0; c < corner_count(mesh.face[f]); ++c) {
       const auto [entry, fresh] = vertex.try_emplace(joined[4 * f + c], static_cast<int>(source.size()));
@@ -63,6 +64,8 @@ Mesh split_at_creases(const Mesh& mesh, double angle) {
       split.face[f][c] = entry->second;
     }
   split.position = mesh.position(source, Eigen::all);
+  if (mesh.colour.rows() > 0) split.colour = mesh.colour(source, Eigen::all);
+  split.linear_colour = mesh.linear_colour;
   return split;
 }
 

@@ -42,6 +42,19 @@ TEST_F(DrawnColliders, ComeAfterTheBodiesAndBeforeTheMotes) {
   EXPECT_EQ(bodies[3].surface.points(), 5 * 6);
 }
 
+TEST_F(DrawnColliders, LookAsTheirMeshesDo) {
+  folder_.write("two.obj",
+                "mtllib two.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 2 0 0 1 1 1\n"
+                "usemtl red\nf 1 2 3 4\nusemtl blue\nf 2 5 3\n");
+  folder_.write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  read("{mesh: {file: two.obj}}");
+  const render::DrawnBody body = drawn_->bodies()[1];
+  ASSERT_EQ(body.finish.size(), 2u);
+  EXPECT_EQ(body.surface.material.size(), 3);
+  EXPECT_EQ(body.surface.material(2), 1);
+  EXPECT_EQ(body.surface.colour.rows(), body.surface.uv.rows());
+}
+
 // The velocity that is drawn is the rate of the position that is drawn.
 TEST_F(DrawnColliders, MoveAsTheyAreDrawn) {
   read("{box: {size: [1, 2, 3]}, motion: [{time: 0}, {time: 2, translate: [1, 0, 0], rotate: [0, 90, 45]}]}");

@@ -86,7 +86,10 @@ TEST_F(SceneLook, TheHashCountsTexturesOfMaterials) {
   render::Image other = lace();
   other.pixels[0] = 99;
   render::write_png(folder_.path() / "lace.png", other);
-  EXPECT_NE(read("cloth: {mesh: two.obj}").hash, before);
+  const std::string after = read("cloth: {mesh: two.obj}").hash;
+  EXPECT_NE(after, before);
+  folder_.write("two.mtl", "newmtl lace\nmap_Kd lace.png\nnewmtl glass\nKd 0 0.5 0\nd 0.25\n");
+  EXPECT_NE(read("cloth: {mesh: two.obj}").hash, after);
 }
 
 TEST_F(SceneLook, ReadsJpeg) {
@@ -163,6 +166,16 @@ TEST_F(SceneLook, ClosesHolesOfSoftBodies) {
     EXPECT_THAT(fault.what(), HasSubstr("3 such edges bound 1 holes: close the mesh, say 'close_holes: true'"));
   }
   EXPECT_EQ(error(", close_holes: true"), "");
+}
+
+TEST_F(SceneLook, WarnsOfCachesThatAreTooCoarse) {
+  const auto read_at = [&](const std::string& place) {
+    return cli::mesh_warnings(read_scene(folder_.scene(
+        "billow: 1\ncaches: [pc2]\nbodies: [{cloth: {mesh: cloth.obj, transform: {translate: " + place + "}}}]\n")));
+  };
+  EXPECT_THAT(read_at("[0, 0, 0]"), IsEmpty());
+  EXPECT_THAT(read_at("[500000, 0, 0]"),
+              ElementsAre(HasSubstr("body body_0: caches hold single precision, steps of 0.06 m")));
 }
 
 TEST_F(SceneLook, PinsByWeight) {
