@@ -27,15 +27,7 @@ class SceneMaterial : public testing::Test {
   }
   cli::Scene read(const std::string& body) const { return cli::read_scene(file(body)); }
   sim::Structure built(const std::string& body) const { return cli::build_structure(read(body)); }
-  std::string error(const std::string& body) const {
-    try {
-      read(body);
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      return text.substr(text.find("scene.yaml"));
-    }
-    return "none";
-  }
+  std::string error(const std::string& body) const { return test::scene_error(file(body)); }
 
   test::TemporaryFolder folder_;
 };
@@ -93,17 +85,17 @@ TEST_F(SceneMaterial, SaysWhatIsWrong) {
   EXPECT_EQ(error("soft: {mesh: ball.obj, mass: 1, density: 1}"),
             "scene.yaml:3:57: density and mass both say what the body weighs; leave one of them out");
   EXPECT_EQ(error("soft: {mesh: ball.obj, density: 0}"),
-            "scene.yaml:3:48: density is 0 kg/m³; it must be above 0 and at most 1000000");
+            "scene.yaml:3:48: density is 0 kg/m³; it must be above 0 and at most 1000000 kg/m³");
   EXPECT_EQ(error("cloth: {mesh: squares.obj, material: {stretch: 9}, stiffness: {bend: 1}}"),
-            "scene.yaml:3:87: stiffness and material both say how hard the springs are; leave one of them out");
+            "scene.yaml:3:78: stiffness and material both say how hard the springs are; leave one of them out");
   EXPECT_EQ(error("cloth: {mesh: squares.obj, material: {stretch: 9}, buckling_rigidity: 1}"),
-            "scene.yaml:3:95: buckling_rigidity and material both say how hard the springs are; leave one of them out");
+            "scene.yaml:3:86: buckling_rigidity and material both say how hard the springs are; leave one of them out");
   EXPECT_EQ(error("soft: {mesh: ball.obj, material: {young: 9}, stiffness: {max_eigenvalue: 1e4}}"),
-            "scene.yaml:3:81: stiffness and material both say how hard the springs are; leave one of them out");
+            "scene.yaml:3:72: stiffness and material both say how hard the springs are; leave one of them out");
   EXPECT_EQ(error("cloth: {mesh: squares.obj, fabric: silk, material: {stretch: 9}}"),
-            "scene.yaml:3:75: fabric and material both say what the cloth is made of; leave one of them out");
+            "scene.yaml:3:67: fabric and material both say what the cloth is made of; leave one of them out");
   EXPECT_EQ(error("cloth: {mesh: triangles.obj, material: {stretch: 9, shear: 1}}"),
-            "scene.yaml:3:83: shear is between threads along the sides of quads, and the mesh has triangles; leave it "
+            "scene.yaml:3:75: shear is between threads along the sides of quads, and the mesh has triangles; leave it "
             "out, and the cloth is alike in all directions, or make the mesh of quads");
   EXPECT_THAT(error("cloth: {mesh: squares.obj, material: {bend: 1}}"), HasSubstr("stretch"));
   EXPECT_THAT(error("soft: {mesh: ball.obj, material: {}}"), HasSubstr("young"));

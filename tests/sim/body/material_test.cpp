@@ -137,7 +137,11 @@ TEST(Material, AFlatSheetIsInBalance) {
 
 constexpr double young = 1e3;
 
-Structure solid_of(const Mesh& mesh) { return build_soft_body(mesh, {.young = young}); }
+Structure solid_of(const Mesh& mesh) {
+  SoftBodyOptions options;
+  options.young = young;
+  return build_soft_body(mesh, options);
+}
 
 // A ball of 1 kg that hangs by its cap down to y = 1/2, where the coarsest of the meshes has vertices as well.
 TEST(Material, ABallHangsAlikeAtAnyResolution) {
