@@ -78,8 +78,8 @@ TEST(MeshReport, GuessesUnits) {
 }
 
 TEST(Pieces, HangTogetherByFaces) {
-  const Mesh mesh = bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}},
-                              {{3, 4, 5, -1}, {0, 1, 2, -1}});
+  const Mesh mesh =
+      bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{3, 4, 5, -1}, {0, 1, 2, -1}});
   EXPECT_EQ(pieces(mesh), (std::vector<std::vector<int>>{{0, 1, 2}, {3, 4, 5}}));
 }
 
