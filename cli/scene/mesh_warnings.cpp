@@ -85,18 +85,30 @@ std::vector<std::string> mesh_warnings(const BodySpec& body, bool unit_given) {
   return warnings;
 }
 
+namespace {
+
+// A cloth's sag hardly depends on its mesh, a soft body's does.
+std::string by_spring(const BodySpec& body) {
+  const auto* soft = std::get_if<SoftSpec>(&body.kind);
+  if (!soft || soft->options.young || soft->max_eigenvalue) return "";
+  return "; its stiffness is by the spring, so that a finer mesh makes it stiffer: 'material' does not";
+}
+
+}  // namespace
+
 std::vector<std::string> mesh_lines(const Scene& scene) {
   std::vector<std::string> lines;
   for (const BodySpec& body : scene.bodies) {
     if (body.mesh_file.empty()) continue;
     const sim::MeshReport report = sim::report_of(body.mesh);
     const Eigen::Vector3d size = report.box.sizes();
-    lines.push_back(fmt::format(
-        "mesh: body {}, {} vertices, {} triangles, {} quads, {} pieces, {}, {} seam edges, {:.3g} x {:.3g} x {:.3g} m",
-        body.name, report.vertices, report.triangles, report.quads, report.pieces.size(),
-        report.closed() ? std::string("closed")
-                        : fmt::format("{} borders ({} holes)", report.borders.size(), report.holes()),
-        report.seams.count, size.x(), size.y(), size.z()));
+    lines.push_back(
+        fmt::format("mesh: body {}, {} vertices, {} triangles, {} quads, {} pieces, {}, {} seam edges, {:.3g} x {:.3g} "
+                    "x {:.3g} m{}",
+                    body.name, report.vertices, report.triangles, report.quads, report.pieces.size(),
+                    report.closed() ? std::string("closed")
+                                    : fmt::format("{} borders ({} holes)", report.borders.size(), report.holes()),
+                    report.seams.count, size.x(), size.y(), size.z(), by_spring(body)));
   }
   return lines;
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 #include "sim/mesh/boundary.h"
 #include "sim/mesh/closed_surface.h"
@@ -67,13 +67,24 @@ void count_edges(const Mesh& mesh, const std::vector<Edge>& edges, MeshReport& r
   }
 }
 
+// Faces with the vertices of an earlier one.
+void find_duplicates(const Mesh& mesh, MeshReport& report) {
+  std::vector<std::pair<Face, int>> sorted;  // vertices ascending, and which face
+  for (const Face& face : mesh.face) {
+    sorted.emplace_back(face, static_cast<int>(sorted.size()));
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<int> later;
+  for (std::size_t k = 1; k < sorted.size(); ++k)
+    if (sorted[k].first == sorted[k - 1].first) later.push_back(sorted[k].second);
+  std::sort(later.begin(), later.end());
+  for (const int f : later) report.duplicate_faces.add(middle_of(mesh, mesh.face[static_cast<std::size_t>(f)]));
+}
+
 void count_faces(const Mesh& mesh, MeshReport& report) {
-  std::set<Face> known;
   for (const Face& face : mesh.face) {
     ++(corner_count(face) == 3 ? report.triangles : report.quads);
-    Face sorted = face;
-    std::sort(sorted.begin(), sorted.end());
-    if (!known.insert(sorted).second) report.duplicate_faces.add(middle_of(mesh, face));
     double longest = 0.0, twice_area = 0.0;
     for (int c = 0; c < corner_count(face); ++c) {
       const Eigen::Vector3d a = place(mesh, face[c]), b = place(mesh, face[(c + 1) % corner_count(face)]);
@@ -130,6 +141,7 @@ MeshReport report_of(const Mesh& mesh) {
   report.box.extend(mesh.position.colwise().maxCoeff().transpose());
   count_edges(mesh, distinct_edges(mesh), report);
   count_faces(mesh, report);
+  find_duplicates(mesh, report);
   find_pieces(mesh, report);
   find_borders(mesh, report);
   if (report.closed()) report.volume = std::abs(enclosed_volume(mesh));
