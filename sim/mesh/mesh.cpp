@@ -1,6 +1,7 @@
 // A mesh moved and measured.
 #include "sim/mesh/mesh.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "sim/mesh/mesh_edges.h"
