@@ -94,7 +94,13 @@ Image read_texture(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   char head[3] = {};
   in.read(head, sizeof head);
-  if (std::string_view(head, sizeof head) != "\xff\xd8\xff") return read_png(file);
+  const std::string_view begin(head, static_cast<std::size_t>(in.gcount()));
+  if (begin != "\xff\xd8\xff") {
+    // What is missing or empty read_png has words for.
+    if (!begin.empty() && !begin.starts_with("\x89PN"))
+      throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", file.string()));
+    return read_png(file);
+  }
   const std::string rest{std::istreambuf_iterator<char>(in), {}};
   return decode_jpeg(std::string(head, sizeof head) + rest, file.string());
 }

@@ -117,6 +117,7 @@ class FacePass {
     if (key == "f" || key == "fo") add_face(words, line.number);
     if (key == "g" || key == "o" || key == "usemtl") take_names(line);
     if (key == "l" || key == "p") builder_.ignore(key == "l" ? "lines" : "points");
+    if (!is_known(key)) builder_.ignore(fmt::format("lines that begin with '{}'", key.substr(0, 40)));
     if (key == "curv" || key == "curv2" || key == "surf") has_free_form_ = true;
   }
 
@@ -129,6 +130,16 @@ class FacePass {
   }
 
  private:
+  // Of Wavefront's format, version 3.0: what a damaged keyword loses is told.
+  static bool is_known(std::string_view key) {
+    static const std::set<std::string_view> known = {
+        "v",     "vt",       "vn",       "vp",     "f",          "fo",        "l",      "p",     "g",    "o",
+        "s",     "mg",       "usemtl",   "mtllib", "usemap",     "maplib",    "cstype", "deg",   "bmat", "step",
+        "curv",  "curv2",    "surf",     "parm",   "trim",       "hole",      "scrv",   "sp",    "end",  "con",
+        "bevel", "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "ctech",  "stech", "call", "csh"};
+    return known.contains(key);
+  }
+
   // A number of a corner, counted from 0; -1 in the file is the latest one.
   static long long absolute(long long index, int so_far) { return index > 0 ? index - 1 : so_far + index; }
 

@@ -35,13 +35,16 @@ class TextStl {
 
   void take(const TextLine& line) {
     const std::string key = lower(line.words[0]);
-    if (key == "solid") name_ = line.rest;
+    if (key == "solid") name_ = line.rest, open_ = true;
+    if (key == "endsolid" || key == "end") open_ = false;  // "end solid" is written too
     if (key == "vertex") add_vertex(line);
     if (key == "endloop" || key == "endfacet") end_facet(line.number);
   }
 
   PolygonSoup soup() {
-    if (!corner_.empty()) throw InputError("it ends within a facet; it is truncated");
+    if (open_ || !corner_.empty())
+      throw InputError(fmt::format("it ends without 'endsolid' after {} facets; it is truncated, export it again",
+                                   builder_.faces()));
     return builder_.soup();
   }
 
@@ -67,6 +70,7 @@ class TextStl {
 
   SoupBuilder builder_;
   std::string name_;
+  bool open_ = false;  // a solid that has not ended
   std::vector<long long> corner_;
 };
 

@@ -114,7 +114,7 @@ TEST_F(SceneLook, ReadsJpeg) {
               HasSubstr("the JPEG image is damaged"));
   folder_.write("a.gif", "GIF89a");
   EXPECT_THAT(test::scene_error(folder_.scene("billow: 1\nbodies: [{cloth: {mesh: two.obj}, texture: a.gif}]\n")),
-              HasSubstr("not a PNG image"));
+              HasSubstr("is neither a PNG nor a JPEG image; convert it to one of these"));
 }
 
 TEST_F(SceneLook, ShowsColoursOfVertices) {

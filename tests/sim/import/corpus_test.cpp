@@ -237,6 +237,20 @@ TEST(Declared, PlyFaultsNameTheirLine) {
   EXPECT_THAT(refusal(folder.write("c.ply", head + "0 0 0\n1 0 0\n")), HasSubstr("it ends in line 11"));
 }
 
+TEST(Declared, TextStlThatIsCutShortIsRefused) {
+  const test::TemporaryFolder folder;
+  std::string text = test::mesh_file("stl", test::triangulated(test::quad_grid(2, 2)));
+  EXPECT_EQ(refusal(folder.write("whole.stl", text)), "none");
+  text.resize(text.find("endfacet") + 9);
+  EXPECT_THAT(refusal(folder.write("cut.stl", text)), HasSubstr("ends without 'endsolid' after 1 facets"));
+}
+
+TEST(Declared, ObjLinesOfNoKnownKindAreTold) {
+  const test::TemporaryFolder folder;
+  const Mesh mesh = import_mesh(folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nff 3 2 1\nvn 0 0 1\n"));
+  EXPECT_THAT(mesh.ignored, ElementsAre("lines that begin with 'ff'"));
+}
+
 TEST(Declared, BinaryStlThatIsCutShortIsRefused) {
   const test::TemporaryFolder folder;
   std::string bytes(80, ' ');
