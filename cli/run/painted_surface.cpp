@@ -1,7 +1,7 @@
 // Vertices -> corners, sRGB -> linear light.
 #include "cli/run/painted_surface.h"
 
-#include "render/image/srgb.h"
+#include "base/srgb.h"
 
 namespace billow::cli {
 
@@ -9,7 +9,7 @@ sim::Surface painted(sim::Surface surface, const sim::Mesh& mesh, const Look& lo
   if (!look.shows_vertex_colours) return surface;
   surface.colour = mesh.colour(surface.point, Eigen::all);
   if (!mesh.linear_colour)
-    surface.colour = surface.colour.unaryExpr([](float c) { return static_cast<float>(render::srgb_to_linear(c)); });
+    surface.colour = surface.colour.unaryExpr([](float c) { return static_cast<float>(srgb_to_linear(c)); });
   return surface;
 }
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "render/image/srgb.h"
+#include "base/srgb.h"
 
 namespace billow::cli {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr Range unit_range{0.0, 1.0};
 
 Eigen::Vector3f to_linear(const Eigen::Vector3d& srgb) {
-  return srgb.unaryExpr([](double c) { return render::srgb_to_linear(c); }).cast<float>();
+  return srgb.unaryExpr([](double c) { return srgb_to_linear(c); }).cast<float>();
 }
 
 // "#rrggbb" -> sRGB in [0, 1].
@@ -70,7 +70,7 @@ Eigen::Vector3f read_colour(MapReader& map, std::string_view key, const Eigen::V
 }
 
 std::string hex_colour(const Eigen::Vector3f& linear) {
-  const auto byte = [](float c) { return std::lround(255.0 * render::linear_to_srgb(std::clamp(c, 0.0f, 1.0f))); };
+  const auto byte = [](float c) { return std::lround(255.0 * linear_to_srgb(std::clamp(c, 0.0f, 1.0f))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(linear(0)), byte(linear(1)), byte(linear(2)));
 }
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "render/image/srgb.h"
+#include "base/srgb.h"
 
 namespace billow::render {
 namespace {

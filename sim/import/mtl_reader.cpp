@@ -2,19 +2,17 @@
 #include "sim/import/mtl_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/srgb.h"
 #include "sim/import/mesh_text.h"
 #include "sim/import/text_lines.h"
 
 namespace billow::sim {
 namespace {
-
-double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
 // The file name after a map's options, each of which has a known number of words; names may have blanks.
 std::string map_file(const TextLine& line, bool& has_options) {
@@ -64,8 +62,8 @@ class MtlReader {
     Material& material = materials_.back();
     if (key == "Kd")
       for (int c = 0; c < 3; ++c)
-        material.colour(c) =
-            static_cast<float>(linear(number_or(line, std::min<std::size_t>(c + 1, line.words.size() - 1), 1.0)));
+        material.colour(c) = static_cast<float>(
+            srgb_to_linear(number_or(line, std::min<std::size_t>(c + 1, line.words.size() - 1), 1.0)));
     else if (key == "d")
       set_alpha(material, number_or(line, line.words.size() - 1, 1.0));
     else if (key == "Tr")

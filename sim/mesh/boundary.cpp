@@ -20,11 +20,7 @@ std::vector<BorderEdge> border_edges(const Mesh& mesh) {
   std::vector<BorderEdge> border;
   for (const Edge& edge : distinct_edges(mesh)) {
     if (edge.face.size() != 1) continue;
-    const Face& face = mesh.face[static_cast<std::size_t>(edge.face[0])];
-    const int corners = corner_count(face);
-    bool forward = false;
-    for (int c = 0; c < corners; ++c)
-      forward = forward || (face[c] == edge.first && face[(c + 1) % corners] == edge.second);
+    const bool forward = use_of(mesh.face[static_cast<std::size_t>(edge.face[0])], edge).direction > 0;
     border.push_back({forward ? edge.first : edge.second, forward ? edge.second : edge.first, edge.face[0]});
   }
   std::stable_sort(border.begin(), border.end(),

@@ -33,16 +33,6 @@ std::string shown(const Mesh& mesh, int vertex) {
   return fmt::format("{} ({:.4g}, {:.4g}, {:.4g})", vertex, place.x(), place.y(), place.z());
 }
 
-// +1 where the face runs along the edge from its first to its second vertex, -1 the other way.
-int direction_along(const Face& face, const Edge& edge) {
-  const int corners = corner_count(face);
-  for (int c = 0; c < corners; ++c) {
-    if (face[c] == edge.first && face[(c + 1) % corners] == edge.second) return 1;
-    if (face[c] == edge.second && face[(c + 1) % corners] == edge.first) return -1;
-  }
-  return 0;
-}
-
 void require_two_faces(const Mesh& mesh, const Edge& edge, std::ptrdiff_t open_edges) {
   if (edge.face.size() == 1)
     throw InputError(fmt::format(
@@ -55,7 +45,7 @@ void require_two_faces(const Mesh& mesh, const Edge& edge, std::ptrdiff_t open_e
         fmt::format("the edge between the vertices {} and {} belongs to {} faces, and a soft body's surface "
                     "must be closed, with two faces at every edge; mend the mesh, or make it a cloth",
                     shown(mesh, edge.first), shown(mesh, edge.second), edge.face.size()));
-  if (direction_along(mesh.face[edge.face[0]], edge) == direction_along(mesh.face[edge.face[1]], edge))
+  if (use_of(mesh.face[edge.face[0]], edge).direction == use_of(mesh.face[edge.face[1]], edge).direction)
     throw InputError(
         fmt::format("the two faces at the edge between the vertices {} and {} face opposite ways; let all "
                     "faces of the mesh point outwards",

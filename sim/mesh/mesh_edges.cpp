@@ -26,6 +26,16 @@ std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
 
 }  // namespace
 
+EdgeUse use_of(const Face& face, const Edge& edge) {
+  const int corners = corner_count(face);
+  for (int c = 0; c < corners; ++c) {
+    const int next = face[(c + 1) % corners];
+    if (face[c] == edge.first && next == edge.second) return {1, c};
+    if (face[c] == edge.second && next == edge.first) return {-1, c};
+  }
+  return {};
+}
+
 std::vector<Edge> distinct_edges(const Mesh& mesh) {
   std::vector<Edge> edges;
   for (const auto& [first, second, face] : sorted_half_edges(mesh)) {

@@ -26,22 +26,11 @@ Eigen::Vector3d middle_of(const Mesh& mesh, const Face& face) {
   return sum / corner_count(face);
 }
 
-// 1 where the face runs from the edge's first vertex to its second, -1 the other way; the corner it begins at.
-std::pair<int, int> along(const Face& face, const Edge& edge) {
-  const int corners = corner_count(face);
-  for (int c = 0; c < corners; ++c) {
-    const int next = face[(c + 1) % corners];
-    if (face[c] == edge.first && next == edge.second) return {1, c};
-    if (face[c] == edge.second && next == edge.first) return {-1, c};
-  }
-  return {0, 0};
-}
-
 bool is_seam(const Mesh& mesh, const Edge& edge) {
   if (mesh.uv.empty() || edge.face.size() != 2) return false;
   const auto ends = [&](int f) {
     const Face& face = mesh.face[static_cast<std::size_t>(f)];
-    const auto [direction, c] = along(face, edge);
+    const auto [direction, c] = use_of(face, edge);
     const Eigen::Vector2f one = mesh.uv[static_cast<std::size_t>(f)][c],
                           two = mesh.uv[static_cast<std::size_t>(f)][(c + 1) % corner_count(face)];
     return direction > 0 ? std::pair(one, two) : std::pair(two, one);
@@ -61,8 +50,8 @@ void count_edges(const Mesh& mesh, const std::vector<Edge>& edges, MeshReport& r
     if (length < tiny_share * report.mean_edge) report.tiny_edges.add(middle);
     if (edge.face.size() > 2) report.crowded_edges.add(middle);
     if (is_seam(mesh, edge)) report.seams.add(middle);
-    if (edge.face.size() == 2 && along(mesh.face[static_cast<std::size_t>(edge.face[0])], edge).first ==
-                                     along(mesh.face[static_cast<std::size_t>(edge.face[1])], edge).first)
+    if (edge.face.size() == 2 && use_of(mesh.face[static_cast<std::size_t>(edge.face[0])], edge).direction ==
+                                     use_of(mesh.face[static_cast<std::size_t>(edge.face[1])], edge).direction)
       report.turned_edges.add(middle);
   }
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/image/srgb.h"
+#include "base/srgb.h"
 #include "tests/support/drawn_sheet.h"
 
 namespace billow::render {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace billow::render {
+namespace billow {
 
 /// Both in [0, 1].
 inline double srgb_to_linear(double encoded) {
@@ -13,4 +13,4 @@ inline double linear_to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-}  // namespace billow::render
+}  // namespace billow
