@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sim/body/moment_fit.h"
+#include "sim/mesh/face_vector.h"
 
 namespace billow::sim {
 namespace {
@@ -91,12 +92,10 @@ class Sheet {
 
   void add_area(const Face& face) {
     const int corners = corner_count(face);
-    const Eigen::Vector3d along = place(face[2]) - place(face[0]);
-    const Eigen::Vector3d across = corners == 4 ? place(face[3]) - place(face[1]) : place(face[1]) - place(face[0]);
-    const Eigen::Vector3d vector = (corners == 4 ? 0.5 : -0.5) * along.cross(across);
+    const Eigen::RowVector3d vector = area_vector(mesh_.position, face);
     for (int c = 0; c < corners; ++c) {
       area_(face[c]) += vector.norm() / corners;
-      normal_.row(face[c]) += vector.transpose();
+      normal_.row(face[c]) += vector;
     }
   }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sim/body/moment_fit.h"
+#include "sim/mesh/face_vector.h"
 #include "sim/mesh/mesh_edges.h"
 
 namespace billow::sim {
@@ -25,12 +26,6 @@ Moments moments(double angle) {
   const double mean = std::sqrt(0.375), second = std::sqrt(0.5), fourth = std::sqrt(0.125);
   return {mean, second * std::cos(2 * angle), second * std::sin(2 * angle), fourth * std::cos(4 * angle),
           fourth * std::sin(4 * angle)};
-}
-
-Eigen::Vector3d area_vector(const Mesh& mesh, const Face& face) {
-  const auto corner = [&](int c) -> Eigen::Vector3d { return mesh.position.row(face[c]); };
-  if (corner_count(face) == 4) return 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1));
-  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
 }
 
 // A face laid flat: its area, its axes (the first along its threads), and what its springs' moments should be.
@@ -53,7 +48,7 @@ Eigen::Vector3d thread(const Mesh& mesh, const Face& face, const Eigen::Vector3d
 
 // A square grid's: 2 k + 4 K, k of its edges in the directions 0 and 90 degrees, K of its diagonals halfway between.
 FlatFace flat_face(const Mesh& mesh, const Face& face, const MembraneModuli& moduli) {
-  const Eigen::Vector3d vector = area_vector(mesh, face);
+  const Eigen::Vector3d vector = area_vector(mesh.position, face).transpose();
   FlatFace flat;
   flat.area = vector.norm();
   const Eigen::Vector3d normal = vector / flat.area;

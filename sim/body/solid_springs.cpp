@@ -16,6 +16,7 @@
 #include "sim/body/membrane_springs.h"
 #include "sim/body/moment_fit.h"
 #include "sim/mesh/closed_surface.h"
+#include "sim/mesh/face_vector.h"
 
 namespace billow::sim {
 namespace {
@@ -84,10 +85,7 @@ Surface surface_of(const Mesh& mesh) {
   const double outwards = enclosed_volume(mesh) < 0.0 ? -1.0 : 1.0;
   for (const Face& face : mesh.face) {
     const int corners = corner_count(face);
-    const Eigen::RowVector3d o = mesh.position.row(face[0]);
-    const Eigen::RowVector3d first = mesh.position.row(face[1]) - o, second = mesh.position.row(face[2]) - o;
-    Eigen::RowVector3d vector = 0.5 * first.cross(second);
-    if (corners == 4) vector += 0.5 * second.cross(mesh.position.row(face[3]) - o);
+    const Eigen::RowVector3d vector = area_vector(mesh.position, face);
     for (int c = 0; c < corners; ++c) {
       surface.area_vector.row(face[c]) += outwards / corners * vector;
       surface.area(face[c]) += vector.norm() / corners;

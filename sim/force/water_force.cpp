@@ -1,7 +1,7 @@
 // Faces -> pressure.
 #include "sim/force/water_force.h"
 
-#include "sim/force/face_vector.h"
+#include "sim/mesh/face_vector.h"
 
 namespace billow::sim {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "sim/force/face_vector.h"
+#include "sim/mesh/face_vector.h"
 
 namespace billow::sim {
 namespace {
