@@ -31,11 +31,11 @@ struct Finding {
 };
 
 constexpr Finding findings[] = {
-    {"crowded_edges", "edges belong to more than two faces", &sim::MeshReport::crowded_edges},
-    {"turned_edges", "edges lie between faces that face opposite ways", &sim::MeshReport::turned_edges},
-    {"duplicate_faces", "faces are there twice", &sim::MeshReport::duplicate_faces},
-    {"flat_faces", "faces have no area", &sim::MeshReport::flat_faces},
-    {"tiny_edges", "edges are shorter than a thousandth of the mean", &sim::MeshReport::tiny_edges}};
+    {"crowded_edges", "edges of more than two faces", &sim::MeshReport::crowded_edges},
+    {"turned_edges", "edges between faces that face opposite ways", &sim::MeshReport::turned_edges},
+    {"duplicate_faces", "faces that are there twice", &sim::MeshReport::duplicate_faces},
+    {"flat_faces", "faces without an area", &sim::MeshReport::flat_faces},
+    {"tiny_edges", "edges shorter than a thousandth of the mean", &sim::MeshReport::tiny_edges}};
 
 Json places_json(const sim::Places& places) {
   Json first = Json::array();
@@ -138,15 +138,15 @@ void print_extras(const sim::Mesh& mesh, const sim::MeshReport& report) {
 
 void print_findings(const sim::MeshReport& report) {
   if (report.loose_vertices > 0)
-    print_line("beware", fmt::format("{} vertices belong to no face and are left out", report.loose_vertices));
+    print_line("beware", fmt::format("vertices of no face, left out: {}", report.loose_vertices));
   if (report.dropped_faces > 0)
-    print_line("beware", fmt::format("{} faces collapse to a line or a point and are left out", report.dropped_faces));
+    print_line("beware", fmt::format("faces that collapse to a line or a point, left out: {}", report.dropped_faces));
   for (const Finding& finding : findings) {
     const sim::Places& places = report.*finding.places;
     if (places.count == 0) continue;
     std::vector<std::string> where;
     for (const Eigen::Vector3d& place : places.first) where.push_back(text_of(place));
-    print_line("beware", fmt::format("{} {}: {}{}", places.count, finding.text, fmt::join(where, "; "),
+    print_line("beware", fmt::format("{}: {}, at {}{}", finding.text, places.count, fmt::join(where, "; "),
                                      places.count > sim::Places::shown ? "; …" : ""));
   }
 }

@@ -41,7 +41,8 @@ void add_loose_pieces(const BodySpec& body, std::vector<std::string>& warnings) 
                                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
   const Eigen::Vector3d middle = body.mesh.position(*largest, Eigen::all).colwise().mean().transpose();
   warnings.push_back(fmt::format(
-      "{} of its mesh's {} pieces hold no pin and will fall, the largest {} vertices around {}, vertex {} among them; "
+      "pieces of its mesh that no pin holds and that will fall: {} of {}, the largest {} vertices around {}, vertex {} "
+      "among them; "
       "pin them, join them to the rest, or make them a body of their own",
       pieces.loose.size(), pieces.loose.size() + pieces.held.size(), largest->size(), shown(middle), largest->front()));
 }
@@ -59,7 +60,7 @@ void add_places(const sim::Places& places, std::string_view what, std::vector<st
   if (places.count == 0) return;
   std::vector<std::string> where;
   for (const Eigen::Vector3d& place : places.first) where.push_back(shown(place));
-  warnings.push_back(fmt::format("{} {}, at {}{}", places.count, what, fmt::join(where, ", "),
+  warnings.push_back(fmt::format("{}: {}, at {}{}", what, places.count, fmt::join(where, ", "),
                                  places.count > static_cast<int>(where.size()) ? " …" : ""));
 }
 
@@ -74,14 +75,14 @@ std::vector<std::string> mesh_warnings(const BodySpec& body, bool unit_given) {
   const sim::MeshReport report = sim::report_of(body.mesh);
   if (!unit_given) add_unit(report, warnings);
   add_loose_pieces(body, warnings);
-  add_places(report.crowded_edges, "edges of its mesh belong to more than two faces", warnings);
-  add_places(report.turned_edges, "edges of its mesh lie between faces that face opposite ways", warnings);
-  add_places(report.duplicate_faces, "faces of its mesh are there twice", warnings);
-  add_places(report.flat_faces, "faces of its mesh have no area", warnings);
-  add_places(report.tiny_edges, "edges of its mesh are shorter than a thousandth of the mean", warnings);
+  add_places(report.crowded_edges, "edges of its mesh with more than two faces", warnings);
+  add_places(report.turned_edges, "edges of its mesh between faces that face opposite ways", warnings);
+  add_places(report.duplicate_faces, "faces of its mesh that are there twice", warnings);
+  add_places(report.flat_faces, "faces of its mesh without an area", warnings);
+  add_places(report.tiny_edges, "edges of its mesh shorter than a thousandth of the mean", warnings);
   if (report.dropped_faces > 0)
     warnings.push_back(
-        fmt::format("{} faces of its file collapse to a line or a point and are left out", report.dropped_faces));
+        fmt::format("faces of its file that collapse to a line or a point, left out: {}", report.dropped_faces));
   return warnings;
 }
 

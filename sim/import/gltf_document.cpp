@@ -23,7 +23,8 @@ json parse(std::string text) {
   text = plain_text(std::move(text));
   while (!text.empty() && text.back() == '\0') text.pop_back();
   json root = json::parse(text, nullptr, false);
-  if (!root.is_object()) throw InputError("it is no glTF: its JSON cannot be read; it is truncated or broken");
+  if (!root.is_object())
+    throw InputError("it is no glTF: its JSON cannot be read; it is truncated or broken, export it again");
   return root;
 }
 
@@ -83,7 +84,8 @@ void read_rows(std::string_view bytes, std::size_t stride, long long type, bool 
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const std::size_t begin = static_cast<std::size_t>(r) * stride;
     if (begin > bytes.size() || row_bytes > bytes.size() - begin)
-      throw InputError("an accessor reaches beyond the end of its buffer view; it is truncated or broken");
+      throw InputError(
+          "an accessor reaches beyond the end of its buffer view; it is truncated or broken, export it again");
     ByteReader reader(bytes.substr(begin, row_bytes), std::endian::little);
     for (Eigen::Index c = 0; c < rows.cols(); ++c) {
       const double value = take(reader, type);
@@ -95,7 +97,8 @@ void read_rows(std::string_view bytes, std::size_t stride, long long type, bool 
 std::string_view part_of(std::string_view bytes, long long offset, long long length, const char* of) {
   if (offset < 0 || length < 0 || static_cast<std::size_t>(offset) > bytes.size() ||
       static_cast<std::size_t>(length) > bytes.size() - static_cast<std::size_t>(offset))
-    throw InputError(fmt::format("a buffer view reaches beyond the end of {}; it is truncated or broken", of));
+    throw InputError(
+        fmt::format("a buffer view reaches beyond the end of {}; it is truncated or broken, export it again", of));
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
@@ -109,13 +112,14 @@ long long gltf_integer(const json& object, const char* key, long long otherwise)
   if (found->is_number() && std::abs(found->get<double>()) < 1e15 &&
       found->get<double>() == std::floor(found->get<double>()))
     return static_cast<long long>(found->get<double>());
-  throw InputError(fmt::format("its '{}' is not a whole number; it is broken", key));
+  throw InputError(fmt::format("its '{}' is not a whole number; it is broken, export it again", key));
 }
 
 double gltf_number(const json& object, const char* key, double otherwise) {
   const auto found = object.find(key);
   if (found == object.end()) return otherwise;
-  if (!found->is_number()) throw InputError(fmt::format("its '{}' is not a number; it is broken", key));
+  if (!found->is_number())
+    throw InputError(fmt::format("its '{}' is not a number; it is broken, export it again", key));
   return found->get<double>();
 }
 
@@ -128,7 +132,8 @@ const json& gltf_part(const json& object, const char* key) {
   static const json nothing;
   const auto found = object.find(key);
   if (found == object.end()) return nothing;
-  if (!found->is_structured()) throw InputError(fmt::format("its '{}' is neither list nor object; it is broken", key));
+  if (!found->is_structured())
+    throw InputError(fmt::format("its '{}' is neither list nor object; it is broken, export it again", key));
   return *found;
 }
 
@@ -139,7 +144,8 @@ std::vector<double> gltf_numbers(const json& object, const char* key, std::size_
   for (const json& item : list)
     numbers.push_back(item.is_number() ? item.get<double>() : std::numeric_limits<double>::quiet_NaN());
   if (numbers.size() != size)
-    throw InputError(fmt::format("its '{}' has {} numbers and not {}; it is broken", key, numbers.size(), size));
+    throw InputError(
+        fmt::format("its '{}' has {} numbers and not {}; it is broken, export it again", key, numbers.size(), size));
   return numbers;
 }
 
@@ -155,7 +161,7 @@ std::string from_base64(std::string_view text) {
     if (c == '+' || c == '-') value = 62;
     if (c == '/' || c == '_') value = 63;
     if (c == '=' || is_blank(c)) continue;
-    if (value < 0) throw InputError("data in a URI are not base64; it is broken");
+    if (value < 0) throw InputError("data in a URI are not base64; it is broken, export it again");
     bits = bits << 6 | static_cast<unsigned>(value);
     if (++count % 4 != 1) bytes += static_cast<char>(bits >> (2 * (3 - (count - 1) % 4)) & 0xff);
   }
@@ -203,7 +209,8 @@ void GltfDocument::load_binary(std::string bytes) {
     throw InputError(fmt::format("it is a GLB of version {}, which is not read; export it as 2.0", version));
   const auto length = reader.take<std::uint32_t>();
   if (length > bytes.size())
-    throw InputError(fmt::format("it should have {} bytes and has {}; it is truncated", length, bytes.size()));
+    throw InputError(
+        fmt::format("it should have {} bytes and has {}; it is truncated, export it again", length, bytes.size()));
   std::size_t at = 12;
   bool has_json = false;
   while (at + 8 <= length) {
@@ -211,18 +218,18 @@ void GltfDocument::load_binary(std::string bytes) {
     const auto size = head.take<std::uint32_t>();
     const auto kind = head.take<std::uint32_t>();
     at += 8;
-    if (size > bytes.size() - at) throw InputError("a chunk reaches beyond its end; it is truncated");
+    if (size > bytes.size() - at) throw InputError("a chunk reaches beyond its end; it is truncated, export it again");
     if (kind == json_chunk && !has_json) root_ = parse(bytes.substr(at, size)), has_json = true;
     if (kind == bin_chunk && chunk_.empty()) chunk_ = bytes.substr(at, size);
     at += size;
   }
-  if (!has_json) throw InputError("it has no JSON chunk; it is truncated or broken");
+  if (!has_json) throw InputError("it has no JSON chunk; it is truncated or broken, export it again");
 }
 
 std::string GltfDocument::resource(const std::string& uri) const {
   if (!uri.starts_with("data:")) return folder_.read(from_percent(uri));
   const std::size_t comma = uri.find(',');
-  if (comma == uri.npos) throw InputError("a data URI has no data; it is broken");
+  if (comma == uri.npos) throw InputError("a data URI has no data; it is broken, export it again");
   const std::string_view data = std::string_view(uri).substr(comma + 1);
   return uri.substr(0, comma).ends_with(";base64") ? from_base64(data) : from_percent(data);
 }
@@ -233,8 +240,8 @@ void GltfDocument::load_buffers() {
     buffer_.push_back(uri.empty() && buffer_.empty() ? chunk_ : uri.empty() ? std::string() : resource(uri));
     const long long length = gltf_integer(buffer, "byteLength", 0);
     if (!uri.empty() && static_cast<long long>(buffer_.back().size()) < length)
-      throw InputError(fmt::format("its buffer {} should have {} bytes and has {}; it is truncated", buffer_.size() - 1,
-                                   length, buffer_.back().size()));
+      throw InputError(fmt::format("its buffer {} should have {} bytes and has {}; it is truncated, export it again",
+                                   buffer_.size() - 1, length, buffer_.back().size()));
   }
 }
 
@@ -243,7 +250,8 @@ const json& GltfDocument::entry(const char* list, const json& index) const {
   const long long k = index.is_number_integer() ? index.get<long long>() : -1;
   if (k < 0 || !entries.is_array() || k >= static_cast<long long>(entries.size()) ||
       !entries[static_cast<std::size_t>(k)].is_object())
-    throw InputError(fmt::format("it refers to {} of '{}', which is not there; it is broken", index.dump(), list));
+    throw InputError(
+        fmt::format("it refers to {} of '{}', which is not there; it is broken, export it again", index.dump(), list));
   return entries[static_cast<std::size_t>(k)];
 }
 
@@ -294,7 +302,7 @@ Eigen::MatrixXd GltfDocument::numbers(const json& accessor_index, long long max_
   const json& accessor = entry("accessors", accessor_index);
   const long long count = gltf_integer(accessor, "count", 0);
   const int components = components_of(gltf_text(accessor, "type"));
-  if (count < 0) throw InputError("an accessor has fewer than 0 rows; it is broken");
+  if (count < 0) throw InputError("an accessor has fewer than 0 rows; it is broken, export it again");
   if (count > max_count)
     throw InputError(
         fmt::format("it has {} vertices or face corners in one accessor, and the limit is {}; use a coarser mesh",

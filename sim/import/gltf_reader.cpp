@@ -95,7 +95,7 @@ std::vector<PlacedNode> placed_nodes(const GltfDocument& document) {
     PlacedNode next = std::move(open.back());
     open.pop_back();
     if (placed.size() > most_nodes)
-      throw InputError("its nodes form a loop, or there are more than 100000; it is broken");
+      throw InputError("its nodes form a loop, or there are more than 100000; it is broken, export it again");
     const json& children = gltf_part(*next.node, "children");
     for (std::size_t k = children.size(); k-- > 0;) add(children[k], next.to_world, next.names);
     placed.push_back(std::move(next));
@@ -203,8 +203,9 @@ class GltfReader {
   Eigen::MatrixXd read(const json& accessor, Eigen::Index columns, Eigen::Index rows, const char* what) const {
     Eigen::MatrixXd numbers = document_.numbers(accessor, limits_.max_vertices);
     if (numbers.cols() < columns || (rows >= 0 && numbers.rows() != rows))
-      throw InputError(fmt::format("its {} has {} rows of {} numbers, which does not fit its positions; it is broken",
-                                   what, numbers.rows(), numbers.cols()));
+      throw InputError(fmt::format(
+          "its {} has {} rows of {} numbers, which does not fit its positions; it is broken, export it again", what,
+          numbers.rows(), numbers.cols()));
     return numbers;
   }
 
@@ -238,7 +239,7 @@ class GltfReader {
   const PlacedNode& placed(const json& index) const {
     for (const PlacedNode& node : nodes_)
       if (index.is_number_integer() && node.index == index.get<long long>()) return node;
-    throw InputError("a skin has a joint that is not in the scene; it is broken");
+    throw InputError("a skin has a joint that is not in the scene; it is broken, export it again");
   }
 
   // Where a skin puts vertices at rest; each joint's share of them is a weight of its name.
@@ -273,7 +274,8 @@ class GltfReader {
     for (int k = 0; k < 4; ++k) {
       if (weight(k) == 0.0) continue;
       const auto j = static_cast<std::size_t>(joint(k));
-      if (j >= pose.size()) throw InputError("a vertex names a joint that its skin lacks; it is broken");
+      if (j >= pose.size())
+        throw InputError("a vertex names a joint that its skin lacks; it is broken, export it again");
       moved += weight(k) / sum * (pose[j] * rest);
     }
     const int vertex =
@@ -328,7 +330,8 @@ class GltfReader {
     if (indexed) index = document_.numbers(primitive["indices"], 3ll * limits_.max_faces + 2);
     const long long count = indexed ? index.rows() : vertices;
     if (mode == 4 && count % 3 != 0)
-      throw InputError(fmt::format("it has {} corners of triangles, which is no multiple of 3; it is broken", count));
+      throw InputError(fmt::format(
+          "it has {} corners of triangles, which is no multiple of 3; it is broken, export it again", count));
     for (const std::array<long long, 3>& triangle : triangles(mode, count)) {
       SoupBuilder::Polygon polygon;
       polygon.material = static_cast<int>(material_of(primitive));
@@ -359,7 +362,8 @@ PolygonSoup read_gltf(const std::filesystem::path& file, const ImportLimits& lim
   try {
     return GltfReader(file, limits).soup();
   } catch (const json::exception& error) {  // a value of another type than the format has there
-    throw InputError(fmt::format("its JSON is not what glTF has there ({}); it is broken", error.what()));
+    throw InputError(
+        fmt::format("its JSON is not what glTF has there ({}); it is broken, export it again", error.what()));
   }
 }
 

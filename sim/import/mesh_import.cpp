@@ -14,6 +14,7 @@
 #include "sim/import/assimp_reader.h"
 #include "sim/import/gltf_document.h"
 #include "sim/import/gltf_reader.h"
+#include "sim/import/mesh_folder.h"
 #include "sim/import/obj_reader.h"
 #include "sim/import/off_reader.h"
 #include "sim/import/ply_reader.h"
@@ -64,8 +65,9 @@ PolygonSoup read_soup(const fs::path& file, const ImportLimits& limits) {
   if (extension == ".off") return read_off(file, limits);
   if (extension == ".ply") return read_ply(file, limits);
   if (extension == ".stl") {
-    if (is_text_stl(file)) return read_text_stl(file, limits);
-    check_binary_stl(file, limits);
+    std::string bytes = read_bytes(file);
+    if (is_text_stl(bytes)) return read_text_stl(std::move(bytes), limits);
+    check_binary_stl(bytes, limits);
     return read_with_assimp(file, limits);
   }
   try {

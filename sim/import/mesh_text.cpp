@@ -142,7 +142,8 @@ std::string_view Words::need(std::string_view what) {
   const int last_line = line_;
   const std::string_view word = next();
   if (word.empty())
-    throw InputError(fmt::format("it ends in line {}, where {} should be; it is truncated", last_line, what));
+    throw InputError(
+        fmt::format("it ends in line {}, where {} should be; it is truncated, export it again", last_line, what));
   return word;
 }
 

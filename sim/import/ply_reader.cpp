@@ -318,9 +318,9 @@ class Body {
   void take_list(const Property& property, std::vector<double>& list) {
     const double count = numbers_.take(*property.count);
     if (!(count >= 0.0) || count > static_cast<double>(numbers_.left()))
-      throw InputError(fmt::format("{}a list '{}' of {} numbers does not fit into the file; it is truncated or broken",
-                                   numbers_.line() > 0 ? fmt::format("line {}: ", numbers_.line()) : "", property.name,
-                                   count));
+      throw InputError(fmt::format(
+          "{}a list '{}' of {} numbers does not fit into the file; it is truncated or broken, export it again",
+          numbers_.line() > 0 ? fmt::format("line {}: ", numbers_.line()) : "", property.name, count));
     list.resize(static_cast<std::size_t>(count));
     for (double& number : list) number = numbers_.take(property.type);
   }

@@ -46,8 +46,6 @@ class SoupBuilder {
   /// Something that the file has and billow does not use.
   void ignore(const std::string& what);
 
-  const Eigen::Vector3d& position(int vertex) const { return position_[static_cast<std::size_t>(vertex)]; }
-
   /// What was collected; where corners have texture coordinates of their own, with a raw copy of a vertex for each that
   /// it has. Throws InputError where there is no polygon.
   PolygonSoup soup();

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "sim/import/byte_reader.h"
 #include "sim/import/mesh_claims.h"
-#include "sim/import/mesh_folder.h"
 #include "sim/import/mesh_text.h"
 #include "sim/import/soup_builder.h"
 #include "sim/import/text_lines.h"
@@ -76,8 +75,7 @@ class TextStl {
 
 }  // namespace
 
-bool is_text_stl(const std::filesystem::path& file) {
-  const std::string bytes = read_bytes(file);
+bool is_text_stl(const std::string& bytes) {
   if (bytes.size() >= binary_header && bytes.size() == binary_header + binary_triangle * binary_count(bytes))
     return false;
   const std::string head = lower(plain_text(bytes.substr(0, 1000)));
@@ -85,19 +83,19 @@ bool is_text_stl(const std::filesystem::path& file) {
   return begin != head.npos && head.compare(begin, 5, "solid") == 0 && head.find('\0') == head.npos;
 }
 
-void check_binary_stl(const std::filesystem::path& file, const ImportLimits& limits) {
-  const std::string bytes = read_bytes(file);
+void check_binary_stl(const std::string& bytes, const ImportLimits& limits) {
   if (bytes.size() < binary_header)
     throw InputError("it is neither text, which begins with 'solid', nor long enough to be binary; it is no STL file");
   const std::uint32_t count = binary_count(bytes);
   check_claim("faces", count, limits.max_faces, bytes.size());
   if (bytes.size() < binary_header + binary_triangle * count)
-    throw InputError(fmt::format("its header claims {} faces, but the file has room for {}; it is truncated or broken",
-                                 count, (bytes.size() - binary_header) / binary_triangle));
+    throw InputError(fmt::format(
+        "its header claims {} faces, but the file has room for {}; it is truncated or broken, export it again", count,
+        (bytes.size() - binary_header) / binary_triangle));
 }
 
-PolygonSoup read_text_stl(const std::filesystem::path& file, const ImportLimits& limits) {
-  const std::string text = plain_text(read_bytes(file));
+PolygonSoup read_text_stl(std::string bytes, const ImportLimits& limits) {
+  const std::string text = plain_text(std::move(bytes));
   TextStl stl(limits);
   for (TextLines lines(text); lines.next();) stl.take(lines.line());
   return stl.soup();

@@ -37,7 +37,7 @@ void require_two_faces(const Mesh& mesh, const Edge& edge, std::ptrdiff_t open_e
   if (edge.face.size() == 1)
     throw InputError(fmt::format(
         "the edge between the vertices {} and {} belongs to 1 face, and a soft body's surface must be closed, with two "
-        "faces at every edge; {} such edges bound {} holes: close the mesh, say 'close_holes: true', or make it a "
+        "faces at every edge; such edges: {}, holes: {}; close the mesh, say 'close_holes: true', or make it a "
         "cloth",
         shown(mesh, edge.first), shown(mesh, edge.second), open_edges, border_loops(mesh).size()));
   if (edge.face.size() != 2)

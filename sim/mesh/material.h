@@ -18,8 +18,6 @@ struct Material {
   std::string alpha_texture;                         // a file whose grey is the alpha (MTL's map_d); ""
   std::optional<AlphaMode> alpha;                    // none: as the texture has it
   float cutoff = 0.5f;                               // of cut_out
-
-  bool textured() const { return !texture.empty() || !texture_bytes.empty() || !alpha_texture.empty(); }
 };
 
 }  // namespace billow::sim

@@ -29,7 +29,8 @@ TEST(MeshCommand, PrintsWhatItFinds) {
   for (const char* part :
        {"two.obj: 6 vertices, 3 faces (3 triangles, 0 quads)", "size       6 x 1 x 0 m, from (0, 0, 0) to (6, 1, 0)",
         "pieces     2: 3 vertices around (0.333333, 0.333333, 0)", "groups     left wing", "not used   lines",
-        "1 vertices belong to no face", "1 faces collapse", "1 faces are there twice: (5.33333, 0.333333, 0)"})
+        "vertices of no face, left out: 1", "faces that collapse to a line or a point, left out: 1",
+        "faces that are there twice: 1, at (5.33333, 0.333333, 0)"})
     EXPECT_THAT(seen.output, HasSubstr(part));
 }
 

@@ -268,7 +268,8 @@ TEST(SceneFaults, Files) {
        "scene.yaml:7:13: cannot read mesh scene.yaml: its extension '.yaml' is none of .obj .off .stl .ply .gltf .glb; "
        "convert it to one of these"},
       {"colour:", "texture: missing.png\n    colour:", "scene.yaml:12:14: there is no texture file missing.png"},
-      {"colour:", "texture: cloth.obj\n    colour:", "scene.yaml:12:14: cloth.obj: is not a PNG image"},
+      {"colour:", "texture: cloth.obj\n    colour:",
+       "scene.yaml:12:14: cloth.obj: is neither a PNG nor a JPEG image; convert it to one of these"},
   });
 }
 
