@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <vector>
 
 #include "base/error.h"
 #include "cli/command/application.h"
@@ -39,10 +40,47 @@ void check_exists(const fs::path& path) {
   if (!fs::exists(path, error)) throw InputError(path.string() + ": there is no such file or folder");
 }
 
+// Two files that are read row by row, side by side.
+struct TwoImages {
+  TwoImages(const fs::path& file_a, const fs::path& file_b)
+      : a(file_a), b(file_b), row_a(row_size(a)), row_b(row_size(b)) {}
+
+  void next() { a.read(row_a.data()), b.read(row_b.data()); }
+
+  static std::size_t row_size(const render::PngRows& rows) { return std::size_t(rows.width()) * rows.channels(); }
+
+  render::PngRows a, b;
+  std::vector<std::uint8_t> row_a, row_b;
+};
+
+render::RowComparison::Shape shape_of(const render::PngRows& rows) {
+  return {rows.width(), rows.height(), rows.channels()};
+}
+
+render::Comparison comparison_of(const fs::path& a, const fs::path& b) {
+  TwoImages images(a, b);
+  render::RowComparison comparison(shape_of(images.a), shape_of(images.b));
+  for (int y = 0; y < images.a.height(); ++y) {
+    images.next();
+    comparison.add_row(images.row_a.data(), images.row_b.data());
+  }
+  return comparison.finish();
+}
+
+// Of two files that have been compared.
+void write_difference(const fs::path& file, const fs::path& a, const fs::path& b) {
+  TwoImages images(a, b);
+  const int width = images.a.width();
+  render::write_png_rows(file, width, images.a.height(), 3, [&](int, std::uint8_t* row) {
+    images.next();
+    render::difference_row(images.row_a.data(), images.a.channels(), images.row_b.data(), images.b.channels(), width,
+                           row);
+  });
+}
+
 Pair compared(const std::string& name, const fs::path& a, const fs::path& b, const fs::path& difference) {
-  const render::Image first = render::read_png(a), second = render::read_png(b);
-  Pair pair{name, render::compare(first, second), ""};
-  if (!difference.empty()) render::write_png(difference, render::difference(first, second));
+  Pair pair{name, comparison_of(a, b), ""};
+  if (!difference.empty()) write_difference(difference, a, b);
   return pair;
 }
 

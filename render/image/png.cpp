@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csetjmp>
 #include <cstring>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -109,11 +111,6 @@ void read_header(Reader& reader, std::FILE* stream) {
   png_read_update_info(png, reader.info);
 }
 
-void read_rows(Reader& reader, png_bytepp rows) {
-  png_read_image(reader.png, rows);
-  png_read_end(reader.png, nullptr);
-}
-
 // Where the bytes of a PNG go. False, with errno set, when they cannot be kept.
 using Sink = std::function<bool(const void* bytes, std::size_t size)>;
 using FillRow = std::function<void(int y, std::uint8_t* row)>;
@@ -179,32 +176,73 @@ void write_rows(const std::filesystem::path& file, int width, int height, const 
   output.commit();
 }
 
-Image read(const Stream& stream, const std::filesystem::path& file) {
-  check_header(file, stream.get());
-  Reader reader;
-  if (!succeeds(reader.png, [&] { read_header(reader, stream.get()); }))
-    refuse(file, "the PNG image is damaged: " + reader.message);
-  Image image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
-              static_cast<int>(png_get_image_height(reader.png, reader.info)),
-              static_cast<int>(png_get_channels(reader.png, reader.info)));
-  std::vector<png_bytep> rows;
-  for (int y = 0; y < image.height; ++y) rows.push_back(image.row(y));
-  if (!succeeds(reader.png, [&] { read_rows(reader, rows.data()); }))
-    refuse(file, "the PNG image is damaged: " + reader.message);
+}  // namespace
+
+/// A PNG file that is being read.
+class PngSource {
+ public:
+  PngSource(Stream stream, std::filesystem::path file) : file_(std::move(file)), stream_(std::move(stream)) {
+    check_header(file_, stream_.get());
+    check(succeeds(reader_.png, [&] { read_header(reader_, stream_.get()); }));
+    width = static_cast<int>(png_get_image_width(reader_.png, reader_.info));
+    height = static_cast<int>(png_get_image_height(reader_.png, reader_.info));
+    channels = static_cast<int>(png_get_channels(reader_.png, reader_.info));
+    if (png_get_interlace_type(reader_.png, reader_.info) == PNG_INTERLACE_NONE) return;
+    held_ = Image(width, height, channels);
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < height; ++y) rows.push_back(held_.row(y));
+    check(succeeds(reader_.png, [&] { png_read_image(reader_.png, rows.data()); }));
+  }
+
+  void read(std::uint8_t* row) {
+    if (!held_.pixels.empty())
+      std::copy_n(held_.row(next_), std::size_t(width) * channels, row);
+    else
+      check(succeeds(reader_.png, [&] { png_read_row(reader_.png, row, nullptr); }));
+    if (++next_ == height) check(succeeds(reader_.png, [&] { png_read_end(reader_.png, nullptr); }));
+  }
+
+  int width = 0, height = 0, channels = 0;
+
+ private:
+  void check(bool succeeded) const {
+    if (!succeeded) refuse(file_, "the PNG image is damaged: " + reader_.message);
+  }
+
+  std::filesystem::path file_;
+  Stream stream_;
+  Reader reader_;
+  Image held_;  // of an interlaced file, whose rows come in seven parts
+  int next_ = 0;
+};
+
+namespace {
+
+Image image_of(PngSource source) {
+  Image image(source.width, source.height, source.channels);
+  for (int y = 0; y < image.height; ++y) source.read(image.row(y));
   return image;
 }
 
 }  // namespace
 
-Image read_png(const std::filesystem::path& file) { return read(open_to_read(file), file); }
+PngRows::PngRows(const std::filesystem::path& file) : source_(std::make_unique<PngSource>(open_to_read(file), file)) {}
+PngRows::~PngRows() = default;
+int PngRows::width() const { return source_->width; }
+int PngRows::height() const { return source_->height; }
+int PngRows::channels() const { return source_->channels; }
+void PngRows::read(std::uint8_t* row) { source_->read(row); }
+
+Image read_png(const std::filesystem::path& file) { return image_of({open_to_read(file), file}); }
 
 Image decode_png(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) refuse(name, "the image is empty");
   // Only read from.
   Stream stream(fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"), std::fclose);
   if (!stream) throw std::bad_alloc();
-  return read(stream, name);
+  return image_of({std::move(stream), name});
 }
+
 void write_png(const std::filesystem::path& file, const Image& image) {
   write_png_rows(file, image.width, image.height, image.channels, rows_of(image));
 }

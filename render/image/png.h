@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,11 +13,29 @@
 
 namespace billow::render {
 
+class PngSource;
+
 /// Reads an 8-bit RGB or RGBA image (palette, grey and 16-bit files are converted).
 /// Throws InputError on a file that is missing, damaged, or larger than 8192 x 8192.
 Image read_png(const std::filesystem::path& file);
 
-/// The same of the bytes of a file; `name` stands for it in messages.
+/// The same image row by row from the top, for images too large to hold; only interlaced ones are held.
+class PngRows {
+ public:
+  /// Throws as read_png.
+  explicit PngRows(const std::filesystem::path& file);
+  ~PngRows();
+  int width() const;
+  int height() const;
+  int channels() const;
+  /// The next of height() rows of width() * channels() values. Throws InputError where the file is damaged.
+  void read(std::uint8_t* row);
+
+ private:
+  std::unique_ptr<PngSource> source_;
+};
+
+/// As read_png, of the bytes of a file; `name` stands for it in messages.
 Image decode_png(std::string_view bytes, const std::string& name);
 
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.

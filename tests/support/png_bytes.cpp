@@ -41,7 +41,7 @@ int channels(int colour_type) { return colour_type == 2 ? 3 : colour_type == 4 ?
 std::string header(const PngLayout& layout) {
   std::string data =
       big_endian(static_cast<std::uint32_t>(layout.width)) + big_endian(static_cast<std::uint32_t>(layout.height));
-  for (const int value : {layout.depth, layout.colour_type, 0, 0, 0}) data += static_cast<char>(value);
+  for (const int value : {layout.depth, layout.colour_type, 0, 0, layout.interlace}) data += static_cast<char>(value);
   return data;
 }
 

@@ -11,6 +11,7 @@ struct PngLayout {
   int width = 1, height = 1;
   int depth = 8;                 // bits per channel
   int colour_type = 2;           // 0 grey, 2 RGB, 3 palette, 4 grey + alpha, 6 RGBA
+  int interlace = 0;             // 1: Adam7, whose rows are those of seven smaller images
   std::string palette = {};      // PLTE
   std::string transparent = {};  // tRNS
 };

@@ -272,13 +272,12 @@ TEST(MeshRenderer, CastsAShadowOnTheGround) {
   const Image with_ground = draw_sheet(sheet, View::textured, sheet_settings());
   MeshRenderer empty(sheet_settings(), {}, sheet.bounds);
   const Image bare = drawn(empty, View::textured, {});
-  const Image shadow = difference(with_ground, bare, 1);
   // To the lower right of the sheet, where the light from the upper left throws it, and nowhere in the upper left.
   int darker = 0;
   for (int y = 150; y < 240; ++y)
     for (int x = 200; x < 320; ++x) darker += luminance(pixel(bare, x, y)) - luminance(pixel(with_ground, x, y)) > 20;
   EXPECT_GT(darker, 300);
-  EXPECT_EQ(pixel(shadow, 10, 10), (std::array<int, 3>{0, 0, 0}));
+  EXPECT_EQ(pixel(with_ground, 10, 10), pixel(bare, 10, 10));
 }
 
 TEST(MeshRenderer, HidesWhatIsBelowTheGround) {

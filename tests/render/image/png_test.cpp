@@ -101,6 +101,26 @@ TEST_F(Png, ReadsPalettesAndTheirTransparency) {
             (std::vector<int>{10, 20, 30, 7}));
 }
 
+// Of one column and two rows, Adam7 has a row in its first image and the other in its last.
+TEST_F(Png, ReadsInterlacedFiles) {
+  EXPECT_EQ(values(read(png_bytes({.width = 1, .height = 2, .interlace = 1}, "abcdef"))),
+            values(read(png_bytes({.width = 1, .height = 2}, "abcdef"))));
+}
+
+TEST_F(Png, GivesTheSameRowsOneByOne) {
+  const Image image = pattern(20, 30, 4);
+  write_png(path("a.png"), image);
+  PngRows rows(path("a.png"));
+  ASSERT_EQ(rows.width(), 20);
+  ASSERT_EQ(rows.height(), 30);
+  ASSERT_EQ(rows.channels(), 4);
+  std::vector<std::uint8_t> row(80);
+  for (int y = 0; y < 30; ++y) {
+    rows.read(row.data());
+    EXPECT_TRUE(std::equal(row.begin(), row.end(), image.row(y))) << y;
+  }
+}
+
 TEST_F(Png, SaysWhatIsWrongWithAFile) {
   const std::string good = png_bytes({.width = 2}, "abcdef");
   EXPECT_THAT(fault(""), HasSubstr("image.png: the image is empty"));
