@@ -3,12 +3,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
+#include <regex>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -17,10 +22,62 @@ namespace {
 
 std::atomic<bool> durable = false;
 
+constexpr std::string_view ending = ".part";
+
+// What processes with one count of numbers have in common, as a temporary file's name has it: those of a machine, or
+// of a container on it.
+std::string numbering() {
+  char host[256] = {}, space[64] = {};
+  gethostname(host, sizeof host - 1);
+  if (readlink("/proc/self/ns/pid", space, sizeof space - 1) < 0) space[0] = '\0';
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const char* text : {host, space})
+    for (const char* c = text; *c; ++c) hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619u;
+  return fmt::format("{:08x}", hash);
+}
+
+const std::string& own_numbering() {
+  static const std::string numbers = numbering();
+  return numbers;
+}
+
 // Unique in this process and, with the process's number, on this machine.
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() / fmt::format(".{}.{}-{}.part", target.filename().string(), getpid(), counter++);
+  return target.parent_path() /
+         fmt::format(".{}.{}-{}-{}{}", target.filename().string(), own_numbering(), getpid(), counter++, ending);
+}
+
+// What a temporary file's name says of who writes it.
+struct Writer {
+  std::string numbering;
+  long process = 0;
+};
+
+std::optional<Writer> writer_of(const std::string& name) {
+  static const std::regex pattern(R"(\..+\.([0-9a-f]{8})-([0-9]{1,9})-[0-9]{1,10}\.part)", std::regex::optimize);
+  std::smatch match;
+  if (!name.ends_with(ending) || !std::regex_match(name, match, pattern)) return std::nullopt;
+  return Writer{match[1], std::stol(match[2])};
+}
+
+bool is_gone(const Writer& writer, const std::filesystem::path& file) {
+  const std::string& own = own_numbering();
+  if (writer.numbering == own && writer.process == getpid()) return !is_unfinished(file.filename().native());
+  if (writer.numbering == own) return kill(static_cast<pid_t>(writer.process), 0) != 0 && errno == ESRCH;
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  return !error && std::filesystem::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
+// A new file. One that is there already is of an earlier process of this number, which is gone.
+int open_new(const std::filesystem::path& target, std::filesystem::path& name) {
+  int descriptor = -1;
+  do {
+    name = temporary_name(target);
+    descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
+  return descriptor;
 }
 
 // Renaming over a device or a pipe would replace it with a file.
@@ -33,10 +90,11 @@ void require_file_or_nothing(const std::filesystem::path& target) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), temporary_(temporary_name(target)) {
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
   require_file_or_nothing(target);
-  const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const int descriptor = open_new(target, temporary_);
   if (descriptor < 0) fail();
+  unfinished_.emplace(temporary_);
   stream_ = fdopen(descriptor, "wb");
   if (!stream_) {
     close(descriptor);
@@ -75,6 +133,18 @@ void AtomicFile::commit() {
 void AtomicFile::fail() const {
   throw OutputError(fmt::format("cannot write {}: {}", target_.string(), std::strerror(errno)));
 }
+
+void remove_strays(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> strays;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const auto writer = writer_of(entry->path().filename().native());
+    if (writer && is_gone(*writer, entry->path())) strays.push_back(entry->path());
+  }
+  for (const std::filesystem::path& stray : strays) std::filesystem::remove(stray, error);
+}
+
+bool is_temporary_name(std::string_view name) { return writer_of(std::string(name)).has_value(); }
 
 void write_durably() { durable = true; }
 

@@ -4,14 +4,17 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "base/sudden_end.h"
+
 namespace billow {
 
-/// A temporary file beside `target` that takes its name on commit() and is removed without one. Only the temporary
-/// file is ever removed; a failure leaves what `target` was before. Every failure is an OutputError with the system's
-/// reason.
+/// A temporary file beside `target` that takes its name on commit() and is removed without one, also when the process
+/// ends suddenly; what a killed process leaves, remove_strays() removes. Only the temporary file is ever removed; a
+/// failure leaves what `target` was before. Every failure is an OutputError with the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -32,8 +35,17 @@ class AtomicFile {
 
  private:
   std::filesystem::path target_, temporary_;
+  std::optional<UnfinishedFile> unfinished_;
   std::FILE* stream_ = nullptr;
 };
+
+/// Removes from `folder` the temporary files of processes that are gone: of this machine's by their numbers, of other
+/// machines' those that nothing has been written to for a day. Those of running processes stay, and so does anything
+/// else; a folder that is not there has none. What cannot be removed stays.
+void remove_strays(const std::filesystem::path& folder);
+
+/// Whether `name` is that of a temporary file.
+bool is_temporary_name(std::string_view name);
 
 /// From now on commit() waits until the bytes are on the disk before they have their name, so that even after a power
 /// cut no name stands for less than the whole file. For the whole process, like umask: call it before the first file.

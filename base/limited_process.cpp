@@ -17,11 +17,11 @@
 #include <cstring>
 #include <new>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/out_of_memory.h"
 
 namespace billow {
 namespace {
@@ -87,6 +87,7 @@ void write_all(int out, std::string_view bytes) {
 [[noreturn]] void serve(const std::function<std::string()>& work, const ProcessLimits& limits, int out) {
   silence();
   restrict_self(limits);
+  set_out_of_memory_action([](const char*) { _exit(exit_out_of_memory); });
   std::set_new_handler([] { _exit(exit_out_of_memory); });
   char tag = reply_tag;
   std::string reply;
@@ -141,7 +142,7 @@ struct Descriptor {
 };
 
 [[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), std::string("cannot start the mesh importer: ") + what);
+  throw ResourceError(fmt::format("cannot start the mesh importer: {}: {}", what, std::strerror(errno)));
 }
 
 bool readable_before(int in, Clock::time_point deadline) {
@@ -184,11 +185,23 @@ std::string signal_reason(int signal, const ProcessLimits& limits) {
                      sigabbrev_np(signal) ? sigabbrev_np(signal) : std::to_string(signal));
 }
 
+// The child may have had less memory than its limit: then that is not the file's fault.
+void require_room_for([[maybe_unused]] const ProcessLimits& limits) {
+#ifndef BILLOW_SANITIZE
+  rlimit present{};
+  getrlimit(RLIMIT_AS, &present);
+  if (present.rlim_cur != RLIM_INFINITY && present.rlim_cur < address_space_bytes() + limits.memory_bytes)
+    throw ResourceError("out of memory");
+#endif
+}
+
 std::string failure_reason(int status, const ProcessLimits& limits) {
   if (WIFSIGNALED(status)) return signal_reason(WTERMSIG(status), limits);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_out_of_memory)
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_out_of_memory) {
+    require_room_for(limits);
     return fmt::format("it needs more than {} MiB of memory; the file is broken or too large",
                        limits.memory_bytes >> 20);
+  }
   return "the importer stopped on it; the file is probably broken, export it again";
 }
 

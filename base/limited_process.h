@@ -17,7 +17,8 @@ struct ProcessLimits {
 
 /// What `work` returns, computed in a forked child: nothing it does to memory comes back but its reply. The child is
 /// silent and dies with the parent. Throws InputError with the text of whatever `work` threw, or with the reason why
-/// the child gave no reply. Call it before any other thread exists.
+/// the child gave no reply, and ResourceError where the system lets no child start or has less memory than the limits.
+/// Call it before any other thread exists.
 std::string reply_of_child(const std::function<std::string()>& work, const ProcessLimits& limits);
 
 }  // namespace billow

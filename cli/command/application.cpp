@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/out_of_memory.h"
 #include "base/standard_streams.h"
 #include "base/suggest.h"
 #include "cli/command/commands.h"
@@ -280,7 +281,9 @@ int run_command(const std::function<int()>& command) {
     return report(error.what(), exit_not_written);
   } catch (const std::system_error& error) {  // what fmt::print throws
     return report(error.what(), exit_not_written);
-  } catch (const std::bad_alloc&) {
+  } catch (const ResourceError& error) {
+    return report(error.what(), exit_internal_fault);
+  } catch (const std::bad_alloc&) {  // of a size that no machine has
     return report("out of memory", exit_internal_fault);
   } catch (const std::exception& error) {
     return report((std::string("internal fault: ") + error.what()).c_str(), exit_internal_fault);
@@ -300,6 +303,8 @@ int status_of_output(int status) {
 int run(int argc, char** argv) {
   open_standard_streams();
   ignore_write_signals();
+  tidy_up_on_signals();
+  tidy_up_without_memory(exit_internal_fault);
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);

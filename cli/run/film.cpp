@@ -68,6 +68,10 @@ class FirstError {
       stop_();
     }
   }
+  bool there() {
+    const std::lock_guard lock(mutex_);
+    return error_ != nullptr;
+  }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
   }
@@ -148,6 +152,7 @@ class Film {
     } catch (const DivergenceError& error) {
       report_.divergence = error.what();
     }
+    if (error_.there()) return;  // frames cannot be written: what was recorded until now is not of the run
     report_.facts = states_.facts();
     if (!report_.interrupted_by) report_.simulated_time = report_.facts.time;
     frames.finish();

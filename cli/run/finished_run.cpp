@@ -49,6 +49,19 @@ FinishedRun run_of(const fs::path& folder, const Json& record) {
   return run;
 }
 
+// A run that is going on, or ended before it could list its frames.
+[[noreturn]] void refuse_unfinished(const fs::path& file, const Json& record) {
+  const Json status = record.value("status", Json());
+  const char* what = status == "running"       ? "this run has not ended; wait for it, or finish it"
+                     : status == "failed"      ? "this run has failed; finish it"
+                     : status == "interrupted" ? "this run was interrupted; finish it"
+                                               : nullptr;
+  if (!what)
+    throw InputError(fmt::format(
+        "{}: is damaged or of another version of billow; render the scene again with --overwrite", file.string()));
+  throw InputError(fmt::format("{}: {} with 'billow render --resume'", file.string(), what));
+}
+
 render::View view_of_run(const FinishedRun& run, std::string_view name) {
   std::vector<std::string_view> known;
   for (const render::View view : run.views) {
@@ -64,9 +77,7 @@ render::View view_of_run(const FinishedRun& run, std::string_view name) {
 FinishedRun read_finished_run(const fs::path& folder) {
   const fs::path file = folder / word_of(RunFile::record);
   const Json record = Json::parse(record_text(file), nullptr, false);
-  if (record.is_object() && record.value("status", Json()) == "running")
-    throw InputError(fmt::format("{}: this run has not ended; wait for it, or finish it with 'billow render --resume'",
-                                 file.string()));
+  if (record.is_object() && !record.contains("frames")) refuse_unfinished(file, record);
   FinishedRun run;
   try {
     run = run_of(folder, record);

@@ -1,11 +1,20 @@
-// SIGINT, SIGTERM and SIGHUP as a request to finish; broken pipes and file-size limits as ordinary write errors.
+// SIGINT, SIGTERM and SIGHUP as a request to finish, and the end without delay; broken pipes and file-size limits as
+// ordinary write errors.
 #pragma once
 
 namespace billow::cli {
 
-/// From here on the first SIGINT, SIGTERM or SIGHUP is remembered instead of ending the process; the second one ends
-/// it. Call it when there is something to finish; before, the default action is the quickest clean end.
+/// From here on SIGINT, SIGTERM and SIGHUP remove what is half written before they end the process. Those that whoever
+/// started it ignores stay ignored.
+void tidy_up_on_signals();
+
+/// From here on the first of these signals is remembered instead of ending the process; the second one ends it. Call it
+/// when there is something to finish; before, the end at once is the cleanest.
 void catch_interrupts();
+
+/// From here on, where memory is asked for that is not there, what is half written is removed, stderr says so, and the
+/// process ends with `status`.
+void tidy_up_without_memory(int status);
 
 /// A closed pipe or a file-size limit from here on is an error of the write that meets it, not the end of the process.
 void ignore_write_signals();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/run/state_store.h"
 
@@ -17,12 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view caches_name = "caches";
+
+bool holds_anything(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (!entry->is_directory(error) && !is_temporary_name(entry->path().filename().native())) return true;
+  return static_cast<bool>(error);
+}
+
 bool is_empty_or_missing(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return true;
   if (!fs::is_directory(folder, error))
     throw OutputError(fmt::format("{} is not a folder; choose another with -o", folder.string()));
-  return fs::directory_iterator(folder, error) == fs::directory_iterator();
+  return !holds_anything(folder);
 }
 
 bool has_extension(const fs::path& file, std::initializer_list<std::string_view> extensions) {
@@ -58,6 +68,17 @@ void remove_caches(const fs::path& folder) {
   remove_files(folder, is_cache);
 }
 
+// The folders of a run: itself, those of its views, its states, its caches and their sequences.
+void remove_strays_of_runs(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> folders = {folder, folder / StateStore::folder_name, folder / caches_name};
+  for (const render::ViewRow& view : render::views()) folders.push_back(folder / view.folder);
+  for (fs::directory_iterator entry(folder / caches_name, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_directory(error)) folders.push_back(entry->path());
+  for (const fs::path& each : folders)
+    if (!fs::is_symlink(each, error)) remove_strays(each);
+}
+
 void remove_all_frames(const fs::path& folder) {
   for (const render::ViewRow& view : render::views()) remove_files(folder / view.folder, is_frame);
 }
@@ -65,11 +86,12 @@ void remove_all_frames(const fs::path& folder) {
 void remove_earlier_run(const fs::path& folder) {
   std::error_code error;
   remove_all_frames(folder);
-  remove_caches(folder / "caches");
+  remove_caches(folder / caches_name);
   remove_states(folder / StateStore::folder_name);
   for (const std::string_view file : all_words<RunFile>())
     if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
-  if (fs::is_directory(folder / "caches", error)) fs::remove(folder / "caches", error);  // only if it is empty now
+  if (fs::is_directory(folder / caches_name, error))
+    fs::remove(folder / caches_name, error);  // only if it is empty now
 }
 
 // Of the same scene, or of one that only ends at another time.
@@ -142,6 +164,7 @@ void OutputFolder::begin_run() {
 }
 
 void OutputFolder::join_run() {
+  remove_strays_of_runs(folder_);
   for (const render::View view : views_) make_folder(folder_ / render::folder(view));
 }
 
@@ -152,6 +175,8 @@ fs::path frame_of(const fs::path& folder, render::View view, long frame) {
 fs::path OutputFolder::frame(render::View view, long frame) const { return frame_of(folder_, view, frame); }
 
 fs::path OutputFolder::states() const { return folder_ / StateStore::folder_name; }
+
+fs::path OutputFolder::caches() const { return folder_ / caches_name; }
 
 fs::path OutputFolder::file(RunFile file) const { return folder_ / word_of(file); }
 

@@ -21,7 +21,8 @@ enum class Existing { refuse, overwrite, resume };
 void make_folder(const std::filesystem::path& folder);
 
 /// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run of this scene,
-/// however long, by its run.json and it is resume. Changes nothing.
+/// however long, by its run.json and it is resume. Folders in which there is nothing, and the temporary files of runs
+/// that were killed, count as nothing. Changes nothing.
 void check_output_folder(const std::filesystem::path& folder, Existing existing, const Scene& scene);
 
 /// run.json of `folder`, as far as it can be read; null where it cannot.
@@ -55,9 +56,9 @@ class OutputFolder {
                const std::vector<render::View>& views);
 
   /// Call it when the first frame is about to be drawn: `overwrite` now removes what an earlier run wrote there, and
-  /// nothing else.
+  /// nothing else but the temporary files of runs that were killed.
   void begin_run();
-  /// The same where other processes may be drawing other frames of the run: removes nothing.
+  /// The same where other processes may be drawing other frames of the run: removes nothing else.
   void join_run();
   /// Draw everything again, also what is there.
   void keep_nothing() { keeps_ = false; }
@@ -72,7 +73,7 @@ class OutputFolder {
   /// The frames of 1 to `total` that are there in every view, ascending.
   std::vector<long> frames_drawn(long total) const;
   /// The folder of geometry caches; it need not be there.
-  std::filesystem::path caches() const { return folder_ / "caches"; }
+  std::filesystem::path caches() const;
   /// True when resuming and there is a file of the frame, whole or not.
   bool keeps(render::View view, long frame) const;
 

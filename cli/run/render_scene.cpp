@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "base/atomic_file.h"
@@ -85,6 +86,18 @@ class SceneRun {
       : run_(run), options_(options), folder_(folder), threads_(threads), progress_(progress) {}
 
   int run() {
+    try {
+      const int status = run_to_its_end();
+      if (status > 128 && record_) record_->end(SuddenEnd::interruption, "");
+      return status;
+    } catch (const std::exception& error) {
+      if (record_) record_->end(SuddenEnd::failure, error.what());
+      throw;
+    }
+  }
+
+ private:
+  int run_to_its_end() {
     say_start(progress_, run_);
     warnings_ = mesh_warnings(run_.scene);
     for (std::string& warning : step_warnings(run_.simulation.structure(), run_.choice))
@@ -108,9 +121,9 @@ class SceneRun {
     return 0;
   }
 
- private:
-  void write_begun_record(const nlohmann::ordered_json& bounds) const {
-    write_file_atomically(folder_.file(RunFile::record), begun_record(run_, bounds));
+  void write_begun_record(const nlohmann::ordered_json& bounds) {
+    record_.reset();
+    record_.emplace(folder_.file(RunFile::record), begun_record(run_, bounds));
   }
 
   void begin() {
@@ -180,6 +193,7 @@ class SceneRun {
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
+    record_.reset();
     settle_names(folder_.path());
     say_end(progress_, report, folder_, options_.simulate_only);
   }
@@ -191,6 +205,7 @@ class SceneRun {
   Progress& progress_;
   Warnings warnings_;
   Survey survey_;
+  std::optional<RunningRecord> record_;  // until the run has its own
   std::unique_ptr<StateSource> states_;
 };
 

@@ -1,6 +1,8 @@
 // Writing run.json.
 #include "cli/run/run_record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -15,6 +17,12 @@ namespace billow::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char *running = "running", *failed = "failed", *interrupted = "interrupted";
+
+std::string in_quotes(const std::string& word) { return '"' + word + '"'; }
+
+std::string padded(const std::string& word, std::size_t size) { return fmt::format("{:<{}}", in_quotes(word), size); }
 
 Json begun(const Scene& scene, const std::string& command, const char* status) {
   Json views = Json::array();
@@ -148,10 +156,31 @@ Json bounds_record(const render::RunBounds& bounds) {
   return {{"low", list(bounds.box.min())}, {"high", list(bounds.box.max())}, {"velocity_scale", bounds.velocity_scale}};
 }
 
-std::string begun_record(const Run& run, const Json& bounds) {
-  Json json = begun(run.scene, run.command, "running");
+Json begun_record(const Run& run, const Json& bounds) {
+  Json json = begun(run.scene, run.command, running);
   if (!bounds.is_null()) json["bounds"] = bounds;
-  return json.dump(2) + "\n";
+  return json;
+}
+
+// The status has room behind it for the longest word, so that one can be written over another.
+RunningRecord::RunningRecord(std::filesystem::path file, Json begun)
+    : file_(std::move(file)), begun_(std::move(begun)) {
+  const std::string room = in_quotes(interrupted);
+  std::string text = begun_.dump(2) + "\n";
+  const std::size_t place = text.find(in_quotes(running));
+  text.replace(place, in_quotes(running).size(), padded(running, room.size()));
+  write_file_atomically(file_, text);
+  mark_.emplace(file_, static_cast<off_t>(place), padded(running, room.size()), padded(failed, room.size()), room);
+}
+
+void RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
+  try {
+    begun_["status"] = how == SuddenEnd::failure ? failed : interrupted;
+    if (!reason.empty()) begun_["error"] = reason;
+    write_file_atomically(file_, begun_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  } catch (const std::exception&) {  // a full disk has no room for a second file
+    mark(how);
+  }
 }
 
 namespace {
@@ -159,7 +188,7 @@ namespace {
 // Everything but the frames.
 Json finished(const Run& run, const Survey& survey, const FilmReport& report, const Progress& progress,
               const Json& inherited) {
-  const char* status = report.divergence ? "diverged" : report.interrupted_by ? "interrupted" : "done";
+  const char* status = report.divergence ? "diverged" : report.interrupted_by ? interrupted : "done";
   Json json = begun(run.scene, run.command, status);
   if (report.divergence) json["divergence"] = *report.divergence;
   json["particles"] = run.simulation.structure().particles();

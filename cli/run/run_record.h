@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
+#include "base/sudden_end.h"
 #include "cli/run/film.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/simulation.h"
@@ -16,7 +18,23 @@ nlohmann::ordered_json bounds_record(const render::RunBounds& bounds);
 
 /// The record of a run that has only begun, enough for --resume to know it by. `bounds` are those of the pictures that
 /// are there, null where none are known.
-std::string begun_record(const Run& run, const nlohmann::ordered_json& bounds);
+nlohmann::ordered_json begun_record(const Run& run, const nlohmann::ordered_json& bounds);
+
+/// The record of a run on its way, in a file. Whatever ends the process, the record says how it stands: "running" while
+/// it does, then "failed" or "interrupted", even where the disk is full or memory has run out.
+class RunningRecord {
+ public:
+  /// Writes it. Throws OutputError.
+  RunningRecord(std::filesystem::path file, nlohmann::ordered_json begun);
+  /// Says how the run ended, and why if there is a reason. What cannot be written does not throw: the run has failed
+  /// already.
+  void end(SuddenEnd how, const std::string& reason) noexcept;
+
+ private:
+  std::filesystem::path file_;
+  nlohmann::ordered_json begun_;
+  std::optional<StandingMark> mark_;
+};
 
 /// Writes the record of a run that ended, whole, diverged or interrupted, to `file`: whole or not at all. Its times are
 /// those of `progress` until now; what is `inherited` stands for what this process did not make. Throws OutputError.

@@ -1,0 +1,98 @@
+// Paths in fixed memory, so that a handler finds them whatever state the process is in.
+#include "base/sudden_end.h"
+
+#include <fcntl.h>
+#include <limits.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+
+namespace billow {
+
+namespace {
+
+struct Slot {
+  std::atomic<bool> taken = false, holds = false;
+  pid_t owner = 0;
+  char path[PATH_MAX] = {};
+};
+std::array<Slot, 512> slots;
+
+constexpr std::size_t most_words = 32;
+
+struct Mark {
+  std::atomic<bool> stands = false;
+  pid_t owner = 0;
+  off_t offset = 0;
+  char path[PATH_MAX] = {}, present[most_words] = {}, failed[most_words] = {}, interrupted[most_words] = {};
+};
+Mark standing;
+
+bool fits(const std::filesystem::path& file) { return file.native().size() < PATH_MAX; }
+
+}  // namespace
+
+UnfinishedFile::UnfinishedFile(const std::filesystem::path& file) : slot_(-1) {
+  if (!fits(file)) return;
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (slots[k].taken.exchange(true)) continue;
+    std::strcpy(slots[k].path, file.c_str());
+    slots[k].owner = getpid();
+    slots[k].holds = true;
+    slot_ = static_cast<int>(k);
+    return;
+  }
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (slot_ < 0) return;
+  Slot& slot = slots[static_cast<std::size_t>(slot_)];
+  slot.holds = false;
+  slot.taken = false;
+}
+
+bool is_unfinished(std::string_view name) {
+  const auto is_it = [&](const Slot& slot) {
+    return slot.holds && slot.owner == getpid() && std::filesystem::path(slot.path).filename() == name;
+  };
+  return std::any_of(slots.begin(), slots.end(), is_it);
+}
+
+StandingMark::StandingMark(const std::filesystem::path& file, off_t offset, const std::string& present,
+                           const std::string& failed, const std::string& interrupted) {
+  if (!fits(file) || present.size() >= most_words) return;
+  if (failed.size() != present.size() || interrupted.size() != present.size()) return;
+  std::strcpy(standing.path, file.c_str());
+  std::strcpy(standing.present, present.c_str());
+  std::strcpy(standing.failed, failed.c_str());
+  std::strcpy(standing.interrupted, interrupted.c_str());
+  standing.offset = offset;
+  standing.owner = getpid();
+  standing.stands = true;
+}
+
+StandingMark::~StandingMark() { standing.stands = false; }
+
+bool mark(SuddenEnd why) noexcept {
+  if (!standing.stands || standing.owner != getpid()) return false;
+  const int descriptor = open(standing.path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const std::size_t size = std::strlen(standing.present);
+  char found[most_words] = {};
+  const bool stands = pread(descriptor, found, size, standing.offset) == static_cast<ssize_t>(size) &&
+                      std::memcmp(found, standing.present, size) == 0;
+  const char* words = why == SuddenEnd::failure ? standing.failed : standing.interrupted;
+  const bool written = stands && pwrite(descriptor, words, size, standing.offset) == static_cast<ssize_t>(size);
+  return close(descriptor) == 0 && written;
+}
+
+void tidy_up(SuddenEnd why) noexcept {
+  for (const Slot& slot : slots)
+    if (slot.holds && slot.owner == getpid()) unlink(slot.path);
+  mark(why);
+}
+
+}  // namespace billow
