@@ -70,16 +70,6 @@ bool is_gone(const Writer& writer, const std::filesystem::path& file) {
   return !error && std::filesystem::file_time_type::clock::now() - written > std::chrono::hours(24);
 }
 
-// A new file. One that is there already is of an earlier process of this number, which is gone.
-int open_new(const std::filesystem::path& target, std::filesystem::path& name) {
-  int descriptor = -1;
-  do {
-    name = temporary_name(target);
-    descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor < 0 && errno == EEXIST);
-  return descriptor;
-}
-
 // Renaming over a device or a pipe would replace it with a file.
 void require_file_or_nothing(const std::filesystem::path& target) {
   std::error_code ignored;
@@ -92,15 +82,23 @@ void require_file_or_nothing(const std::filesystem::path& target) {
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
   require_file_or_nothing(target);
-  const int descriptor = open_new(target, temporary_);
-  if (descriptor < 0) fail();
-  unfinished_.emplace(temporary_);
+  open_temporary();
+  const int descriptor = unfinished_->descriptor();
   stream_ = fdopen(descriptor, "wb");
   if (!stream_) {
     close(descriptor);
     unlink(temporary_.c_str());
     fail();
   }
+}
+
+// A name that is taken is that of a stray, of an earlier process with this number.
+void AtomicFile::open_temporary() {
+  do {
+    temporary_ = temporary_name(target_);
+    unfinished_.emplace(temporary_, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (unfinished_->descriptor() < 0 && errno == EEXIST);
+  if (unfinished_->descriptor() < 0) fail();
 }
 
 AtomicFile::~AtomicFile() {

@@ -34,6 +34,8 @@ class AtomicFile {
   [[noreturn]] void fail() const;
 
  private:
+  void open_temporary();
+
   std::filesystem::path target_, temporary_;
   std::optional<UnfinishedFile> unfinished_;
   std::FILE* stream_ = nullptr;

@@ -13,7 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string_view>
@@ -30,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 // The reply's first byte says whether it is what `work` returned or what it threw.
 constexpr char reply_tag = 'R', error_tag = 'E';
-constexpr int exit_out_of_memory = 3;
+constexpr int exit_out_of_memory = 3;  // more than the limit
+constexpr int exit_nothing_left = 4;   // within the limit: nobody had that much
 
 // ---- the child ----
 
@@ -42,17 +43,22 @@ void lower_limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   setrlimit(resource, &limit);
 }
 
-#ifndef BILLOW_SANITIZE
-// Address space in use: a limit has to leave the child what the parent already had.
+// Address space in use: a limit has to leave the child what the parent already had. Without an allocation.
 rlim_t address_space_bytes() {
-  unsigned long pages = 0;
-  if (FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(statm, "%lu", &pages) != 1) pages = 0;
-    std::fclose(statm);
-  }
+  std::array<char, 64> text{};
+  const int statm = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  const ssize_t size = read(statm, text.data(), text.size() - 1);
+  close(statm);
+  const unsigned long pages = size > 0 ? std::strtoul(text.data(), nullptr, 10) : 0;
   return static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
-#endif
+
+rlim_t space_limit = RLIM_INFINITY;  // of this child
+
+// Whether it asked for more than it may have, or the machine had less.
+[[noreturn]] void end_without_memory(const char*, std::size_t bytes) {
+  _exit(address_space_bytes() + bytes > space_limit ? exit_out_of_memory : exit_nothing_left);
+}
 
 void restrict_self(const ProcessLimits& limits) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -63,8 +69,8 @@ void restrict_self(const ProcessLimits& limits) {
   lower_limit(RLIMIT_CORE, 0, 0);
   lower_limit(RLIMIT_FSIZE, 0, 0);
 #ifndef BILLOW_SANITIZE  // the address sanitizer maps terabytes
-  const rlim_t space = address_space_bytes() + limits.memory_bytes;
-  lower_limit(RLIMIT_AS, space, space);
+  space_limit = address_space_bytes() + limits.memory_bytes;
+  lower_limit(RLIMIT_AS, space_limit, space_limit);
 #endif
 }
 
@@ -87,7 +93,7 @@ void write_all(int out, std::string_view bytes) {
 [[noreturn]] void serve(const std::function<std::string()>& work, const ProcessLimits& limits, int out) {
   silence();
   restrict_self(limits);
-  set_out_of_memory_action([](const char*) { _exit(exit_out_of_memory); });
+  set_out_of_memory_action(end_without_memory);
   std::set_new_handler([] { _exit(exit_out_of_memory); });
   char tag = reply_tag;
   std::string reply;
@@ -185,23 +191,12 @@ std::string signal_reason(int signal, const ProcessLimits& limits) {
                      sigabbrev_np(signal) ? sigabbrev_np(signal) : std::to_string(signal));
 }
 
-// The child may have had less memory than its limit: then that is not the file's fault.
-void require_room_for([[maybe_unused]] const ProcessLimits& limits) {
-#ifndef BILLOW_SANITIZE
-  rlimit present{};
-  getrlimit(RLIMIT_AS, &present);
-  if (present.rlim_cur != RLIM_INFINITY && present.rlim_cur < address_space_bytes() + limits.memory_bytes)
-    throw ResourceError("out of memory");
-#endif
-}
-
 std::string failure_reason(int status, const ProcessLimits& limits) {
   if (WIFSIGNALED(status)) return signal_reason(WTERMSIG(status), limits);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_out_of_memory) {
-    require_room_for(limits);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_out_of_memory)
     return fmt::format("it needs more than {} MiB of memory; the file is broken or too large",
                        limits.memory_bytes >> 20);
-  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_nothing_left) throw ResourceError("out of memory");
   return "the importer stopped on it; the file is probably broken, export it again";
 }
 

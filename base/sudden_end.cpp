@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstring>
+#include <ctime>
 
 namespace billow {
 
@@ -31,20 +33,53 @@ struct Mark {
 };
 Mark standing;
 
+// Files that are being opened and have no slot yet, and whether there may be more.
+std::atomic<int> openings = 0;
+std::atomic<bool> tidying = false;
+
+void wait_a_moment() {
+  const timespec moment{0, 1'000'000};
+  nanosleep(&moment, nullptr);
+}
+
+void begin_opening() {
+  for (;;) {
+    ++openings;
+    if (!tidying) return;
+    --openings;
+    wait_a_moment();
+  }
+}
+
+// Not for ever: a signal may have come while this very thread was opening a file.
+void end_openings() {
+  tidying = true;
+  for (int moments = 0; openings > 0 && moments < 100; ++moments) wait_a_moment();
+}
+
 bool fits(const std::filesystem::path& file) { return file.native().size() < PATH_MAX; }
 
-}  // namespace
-
-UnfinishedFile::UnfinishedFile(const std::filesystem::path& file) : slot_(-1) {
-  if (!fits(file)) return;
+int take_slot(const std::filesystem::path& file) {
+  if (!fits(file)) return -1;
   for (std::size_t k = 0; k < slots.size(); ++k) {
     if (slots[k].taken.exchange(true)) continue;
     std::strcpy(slots[k].path, file.c_str());
     slots[k].owner = getpid();
     slots[k].holds = true;
-    slot_ = static_cast<int>(k);
-    return;
+    return static_cast<int>(k);
   }
+  return -1;
+}
+
+}  // namespace
+
+UnfinishedFile::UnfinishedFile(const std::filesystem::path& file, int flags, unsigned mode) {
+  begin_opening();
+  descriptor_ = open(file.c_str(), flags, mode);
+  const int error = errno;
+  if (descriptor_ >= 0) slot_ = take_slot(file);
+  --openings;
+  errno = error;
 }
 
 UnfinishedFile::~UnfinishedFile() {
@@ -90,6 +125,7 @@ bool mark(SuddenEnd why) noexcept {
 }
 
 void tidy_up(SuddenEnd why) noexcept {
+  end_openings();
   for (const Slot& slot : slots)
     if (slot.holds && slot.owner == getpid()) unlink(slot.path);
   mark(why);

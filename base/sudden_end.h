@@ -13,13 +13,19 @@ namespace billow {
 /// others are left to the next run.
 class UnfinishedFile {
  public:
-  explicit UnfinishedFile(const std::filesystem::path& file);
+  /// Opens a new file as open() does, with its errno on failure. Once tidying has begun it does not return: the process
+  /// is about to end.
+  UnfinishedFile(const std::filesystem::path& file, int flags, unsigned mode);
+  /// Closes nothing, removes nothing.
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
+  /// Negative where it could not be opened.
+  int descriptor() const { return descriptor_; }
+
  private:
-  int slot_;
+  int descriptor_ = -1, slot_ = -1;
 };
 
 /// Whether this process is writing a file of this name, whatever its folder, just now.

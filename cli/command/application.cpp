@@ -304,7 +304,6 @@ int run(int argc, char** argv) {
   open_standard_streams();
   ignore_write_signals();
   tidy_up_on_signals();
-  tidy_up_without_memory(exit_internal_fault);
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);

@@ -1,13 +1,9 @@
 // Remembering a signal, and what is done in no time.
 #include "cli/run/interrupt.h"
 
-#include <unistd.h>
-
 #include <csignal>
-#include <cstring>
 #include <initializer_list>
 
-#include "base/out_of_memory.h"
 #include "base/sudden_end.h"
 
 namespace billow::cli {
@@ -15,7 +11,6 @@ namespace billow::cli {
 namespace {
 
 volatile std::sig_atomic_t pending_signal = 0, remembers = 0;
-int status_without_memory = 1;
 
 extern "C" void on_signal(int signal) {
   if (remembers && pending_signal == 0) {
@@ -25,18 +20,6 @@ extern "C" void on_signal(int signal) {
   tidy_up(SuddenEnd::interruption);
   std::signal(signal, SIG_DFL);
   raise(signal);  // when this handler returns
-}
-
-void say(const char* text) {
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody can be told
-}
-
-[[noreturn]] void end_without(const char* missing) {
-  set_out_of_memory_action(nullptr);
-  tidy_up(SuddenEnd::failure);
-  say(missing);
-  say("\n");
-  _exit(status_without_memory);
 }
 
 }  // namespace
@@ -53,11 +36,6 @@ void tidy_up_on_signals() {
 }
 
 void catch_interrupts() { remembers = 1; }
-
-void tidy_up_without_memory(int status) {
-  status_without_memory = status;
-  set_out_of_memory_action(end_without);
-}
 
 void ignore_write_signals() {
   std::signal(SIGPIPE, SIG_IGN);

@@ -12,10 +12,6 @@ void tidy_up_on_signals();
 /// when there is something to finish; before, the end at once is the cleanest.
 void catch_interrupts();
 
-/// From here on, where memory is asked for that is not there, what is half written is removed, stderr says so, and the
-/// process ends with `status`.
-void tidy_up_without_memory(int status);
-
 /// A closed pipe or a file-size limit from here on is an error of the write that meets it, not the end of the process.
 void ignore_write_signals();
 

@@ -191,10 +191,11 @@ class SceneRun {
       page.listed = range_of(options_, run_.scene).listed;
     }
     write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
+    settle_names(folder_.path());
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
-    record_.reset();
     settle_names(folder_.path());
+    record_.reset();
     say_end(progress_, report, folder_, options_.simulate_only);
   }
 
