@@ -39,7 +39,7 @@ void lower_limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   rlimit limit{};
   getrlimit(resource, &limit);
   limit.rlim_max = std::min(limit.rlim_max, hard);
-  limit.rlim_cur = std::min(soft, limit.rlim_max);
+  limit.rlim_cur = std::min({soft, limit.rlim_cur, limit.rlim_max});
   setrlimit(resource, &limit);
 }
 

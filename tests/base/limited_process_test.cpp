@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/out_of_memory.h"
 
 namespace billow::sim {
 namespace {
@@ -76,6 +78,22 @@ TEST(LimitedProcess, EndsGreed) {
 #endif
   EXPECT_EQ(refusal([] { return std::string(std::size_t{1} << 30, 'x'); }),
             "it needs more than 64 MiB of memory; the file is broken or too large");
+}
+
+// What the limits grant and the machine has not is no fault of the file.
+TEST(LimitedProcess, KnowsItsOwnLimitFromTheMachines) {
+#ifdef BILLOW_SANITIZE
+  GTEST_SKIP() << "sanitizers need the address space";
+#endif
+  rlimit before{};
+  getrlimit(RLIMIT_AS, &before);
+  rlimit tight = before;
+  tight.rlim_cur = std::size_t{4} << 30;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &tight), 0);
+  const ProcessLimits generous = {
+      .memory_bytes = std::size_t{64} << 30, .cpu_seconds = 1, .wall_seconds = 60.0, .reply_bytes = 1 << 20};
+  EXPECT_THROW(reply_of_child([] { return std::string(std::size_t{8} << 30, 'x'); }, generous), ResourceError);
+  setrlimit(RLIMIT_AS, &before);
 }
 
 TEST(LimitedProcess, RefusesAReplyOverTheLimit) {

@@ -190,7 +190,8 @@ def chosen(dice, total, most):
     """Up to `most` of the numbers 1 to total: the first and the last few, and others by chance."""
     if total <= most:
         return list(range(1, total + 1))
-    fixed = set(range(1, most // 8 + 1)) | set(range(total - most // 8 + 1, total + 1))
+    edge = max(1, most // 8)
+    fixed = set(range(1, edge + 1)) | set(range(total - edge + 1, total + 1))
     others = [number for number in range(1, total + 1) if number not in fixed]
     dice.shuffle(others)
     return sorted(fixed | set(others[:most - len(fixed)]))

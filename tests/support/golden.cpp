@@ -44,7 +44,9 @@ testing::AssertionResult differing(const render::Image& image, const render::Ima
     return testing::AssertionFailure() << "the picture " << actual << " and its baseline differ in size"
                                        << how_to_accept(baseline);
   const auto seen = left_behind(name, "difference");
-  render::write_png(seen, render::difference(image, wanted));
+  render::write_png_rows(seen, image.width, image.height, 3, [&](int y, std::uint8_t* row) {
+    render::difference_row(image.row(y), image.channels, wanted.row(y), wanted.channels, image.width, row);
+  });
   const render::Comparison c = render::compare(image, wanted);
   return testing::AssertionFailure() << fmt::format("differs from {}: by up to {}, {:.2f} % of the pixels by over 3\n",
                                                     baseline.string(), c.max, 100.0 * c.share_over)

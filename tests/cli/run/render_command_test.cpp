@@ -198,6 +198,53 @@ TEST_F(RenderCommand, ResumesOnlyWhatIsMissing) {
   EXPECT_EQ(test::read_text(film("textured/frame_0007.png")), before);
 }
 
+// As a run leaves them that met a fault before its first file.
+TEST_F(RenderCommand, TakesAFolderOfEmptyFoldersForAnEmptyOne) {
+  for (const char* more : {"--resume", "--threads=2"}) {
+    fs::remove_all(film(""));
+    fs::create_directories(film("textured"));
+    fs::create_directories(film("velocity"));
+    folder_.write("film/.run.json.00000000-1-0.part", "");
+    EXPECT_EQ(render({more}).status, 0) << more;
+    EXPECT_EQ(record()["status"], "done");
+  }
+}
+
+TEST_F(RenderCommand, SaysInItsRecordThatItFailedAndWhy) {
+  fs::create_directories(film("textured/frame_0009.png/in the way"));
+  folder_.write("film/run.json", "");
+  const ToolResult failed = render({"--overwrite"});
+  EXPECT_EQ(failed.status, 6);
+  EXPECT_EQ(record()["status"], "failed");
+  EXPECT_EQ(record()["error"], "cannot write film/textured/frame_0009.png: it exists and is not a file");
+  const ToolResult sheet = run_tool({"sheet", "film"}, folder_.path());
+  EXPECT_EQ(sheet.status, 4);
+  EXPECT_EQ(sheet.errors, "film/run.json: this run has failed; finish it with 'billow render --resume'\n");
+
+  fs::remove_all(film("textured/frame_0009.png"));
+  EXPECT_EQ(render({"--resume"}).status, 0);
+  EXPECT_EQ(record()["status"], "done");
+  EXPECT_FALSE(record().contains("error"));
+  EXPECT_EQ(whole_images("textured"), 11);
+}
+
+TEST_F(RenderCommand, LeavesNoStripThatIsTooShort) {
+  scene(small_scene("{method: fb_euler}", 200.0));
+  fs::create_directories(film("velocity/frame_0003.png/in the way"));
+  folder_.write("film/run.json", "");
+  EXPECT_EQ(render({"--overwrite"}).status, 6);
+  EXPECT_FALSE(fs::exists(film("velocity_strip.png")));
+  EXPECT_FALSE(fs::exists(film("frames.csv")));
+}
+
+TEST_F(RenderCommand, IsNotDoneWithoutItsPage) {
+  fs::create_directories(film("index.html/in the way"));
+  folder_.write("film/run.json", "");
+  EXPECT_EQ(render({"--overwrite"}).status, 6);
+  EXPECT_EQ(record()["status"], "failed");
+  EXPECT_EQ(whole_images("textured"), 11);
+}
+
 TEST_F(RenderCommand, DoesNotResumeAnotherScene) {
   ASSERT_EQ(render().status, 0);
   const ToolResult result = render({"--resume", "-D", "bodies.drape.cloth.mass=0.06"});
