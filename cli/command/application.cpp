@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -39,6 +40,38 @@ std::vector<FrameSpan> parse_frame_list(const std::string& text) {
   return *spans;
 }
 
+// "250", or "0.5%"
+void parse_pixels(const std::string& text, render::Tolerance& tolerance) {
+  const char* const end = text.data() + text.size();
+  double number = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const bool is_share = rest + 1 == end && *rest == '%';
+  const bool is_count = rest == end && number == std::floor(number) && number < 1e15;
+  if (error != std::errc() || !(number >= 0.0) || !(is_share ? number <= 100.0 : is_count))
+    throw CLI::ValidationError("--pixels",
+                               fmt::format("'{}' is neither a number of pixels like 250 nor a share like 0.5%", text));
+  if (is_share)
+    tolerance.share = number / 100.0;
+  else
+    tolerance.pixels = static_cast<std::int64_t>(number);
+}
+
+// "ssim=0.99"
+render::MetricLimit parse_metric(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  for (const auto& [word, metric] : render::words(render::Metric())) {
+    if (word != name) continue;
+    double limit = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(std::min(text.data() + equals + 1, end), end, limit);
+    if (error == std::errc() && rest == end && limit >= 0.0) return {metric, limit};
+    throw CLI::ValidationError("--metric", fmt::format("'{}' has no limit like {}=0.1", text, name));
+  }
+  throw CLI::ValidationError("--metric", fmt::format("there is no metric '{}'{}", name,
+                                                     suggestion(name, all_words<render::Metric>(), "metrics are")));
+}
+
 /// What the arguments ask for: filled by CLI11, run afterwards.
 struct Request {
   RenderOptions render;
@@ -50,8 +83,8 @@ struct Request {
   StudyOptions study;
   VideoOptions video;
   SheetOptions sheet;
-  std::vector<std::string> overrides;
-  std::string frames, caches;
+  std::vector<std::string> overrides, metrics;
+  std::string frames, caches, pixels;
   bool overwrite = false, resume = false;
   std::function<int()> command;
 };
@@ -171,9 +204,30 @@ void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
   c.add_option("B", r.compare.b, "Image or folder")->required();
-  c.add_option("--diff", r.compare.difference, "Write the difference image")->type_name("FILE");
+  c.add_option("--diff", r.compare.difference, "Write the difference image, times 8")->type_name("FILE");
+  c.add_option("--channel", r.compare.what.threshold, "A pixel differs when a channel does by more (default: 3)")
+      ->check(CLI::Range(0, 255))
+      ->type_name("N");
+  c.add_option("--pixels", r.pixels, "So many pixels, or so much of all, may differ (default: 1%)")->type_name("N|N%");
+  c.add_option("--worst", r.compare.tolerance.worst, "No channel may differ by more (default: 16)")
+      ->check(CLI::Range(0, 255))
+      ->type_name("N");
+  c.add_option("--metric", r.metrics,
+               "Judge by max, rmse, psnr, ssim or flip instead: at most LIMIT, for psnr and ssim at least (repeatable)")
+      ->type_name("METRIC=LIMIT")
+      ->allow_extra_args(false)
+      ->excludes("--pixels")
+      ->excludes("--worst");
+  c.add_option("--mask", r.compare.mask, "PNG of the images' size: what is white in it counts")->type_name("FILE");
+  c.add_flag("--ignore-alpha", r.compare.what.ignore_alpha, "Compare colours only");
   c.add_flag("--json", r.compare.json, "Print JSON");
-  c.final_callback([&r] { r.command = [&r] { return compare_command(r.compare); }; });
+  c.final_callback([&r] {
+    if (!r.pixels.empty()) parse_pixels(r.pixels, r.compare.tolerance);
+    for (const std::string& text : r.metrics) r.compare.tolerance.metrics.push_back(parse_metric(text));
+    for (const render::MetricLimit& limit : r.compare.tolerance.metrics)
+      r.compare.what.flip = r.compare.what.flip || limit.metric == render::Metric::flip;
+    r.command = [&r] { return compare_command(r.compare); };
+  });
 }
 
 void add_study(CLI::App& app, Request& r) {

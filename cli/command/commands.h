@@ -8,6 +8,7 @@
 
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
+#include "render/image/compare.h"
 
 namespace billow::cli {
 
@@ -45,6 +46,9 @@ int filter_command(const FilterCommandOptions& options);
 struct CompareOptions {
   std::filesystem::path a, b;
   std::filesystem::path difference;  // empty: none written
+  std::filesystem::path mask;        // empty: every pixel counts
+  render::ComparisonOptions what;
+  render::Tolerance tolerance;
   bool json = false;
 };
 int compare_command(const CompareOptions& options);

@@ -2,156 +2,84 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <vector>
 
 #include "base/error.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
-#include "render/image/compare.h"
-#include "render/image/png.h"
+#include "cli/command/compared_images.h"
 
 namespace billow::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// One pair of images; without a comparison where only one of them exists.
-struct Pair {
-  std::string name;
-  std::optional<render::Comparison> comparison;
-  std::string missing_in;
-};
-
-// Paths of all PNG files below `folder`, relative to it, in order of name.
-std::set<std::string> images_below(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ".png")
-      names.insert(entry.path().lexically_relative(folder).generic_string());
-  return names;
+const char* name_of(Verdict verdict) {
+  return verdict == Verdict::same ? "same" : verdict == Verdict::different ? "DIFFERENT" : "UNREADABLE";
 }
 
-void check_exists(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path.string() + ": there is no such file or folder");
-}
-
-// Two files that are read row by row, side by side.
-struct TwoImages {
-  TwoImages(const fs::path& file_a, const fs::path& file_b)
-      : a(file_a), b(file_b), row_a(row_size(a)), row_b(row_size(b)) {}
-
-  void next() { a.read(row_a.data()), b.read(row_b.data()); }
-
-  static std::size_t row_size(const render::PngRows& rows) { return std::size_t(rows.width()) * rows.channels(); }
-
-  render::PngRows a, b;
-  std::vector<std::uint8_t> row_a, row_b;
-};
-
-render::RowComparison::Shape shape_of(const render::PngRows& rows) {
-  return {rows.width(), rows.height(), rows.channels()};
-}
-
-render::Comparison comparison_of(const fs::path& a, const fs::path& b) {
-  TwoImages images(a, b);
-  render::RowComparison comparison(shape_of(images.a), shape_of(images.b));
-  for (int y = 0; y < images.a.height(); ++y) {
-    images.next();
-    comparison.add_row(images.row_a.data(), images.row_b.data());
-  }
-  return comparison.finish();
-}
-
-// Of two files that have been compared.
-void write_difference(const fs::path& file, const fs::path& a, const fs::path& b) {
-  TwoImages images(a, b);
-  const int width = images.a.width();
-  render::write_png_rows(file, width, images.a.height(), 3, [&](int, std::uint8_t* row) {
-    images.next();
-    render::difference_row(images.row_a.data(), images.a.channels(), images.row_b.data(), images.b.channels(), width,
-                           row);
-  });
-}
-
-Pair compared(const std::string& name, const fs::path& a, const fs::path& b, const fs::path& difference) {
-  Pair pair{name, comparison_of(a, b), ""};
-  if (!difference.empty()) write_difference(difference, a, b);
-  return pair;
-}
-
-std::vector<Pair> compared_folders(const CompareOptions& options) {
-  if (!options.difference.empty())
-    throw InputError("--diff takes two images, not two folders; compare the pair that differs");
-  const std::set<std::string> a = images_below(options.a), b = images_below(options.b);
-  if (a.empty() && b.empty()) throw InputError("neither folder holds a PNG image");
-  std::set<std::string> names = a;
-  names.insert(b.begin(), b.end());
-  std::vector<Pair> pairs;
-  for (const std::string& name : names) {
-    if (!a.contains(name))
-      pairs.push_back({name, {}, options.a.string()});
-    else if (!b.contains(name))
-      pairs.push_back({name, {}, options.b.string()});
-    else
-      pairs.push_back(compared(name, options.a / name, options.b / name, {}));
-  }
-  return pairs;
-}
-
-std::vector<Pair> compared_pairs(const CompareOptions& options) {
-  check_exists(options.a);
-  check_exists(options.b);
-  const bool a_is_folder = fs::is_directory(options.a), b_is_folder = fs::is_directory(options.b);
-  if (a_is_folder != b_is_folder) throw InputError("compare two images or two folders, not one of each");
-  if (a_is_folder) return compared_folders(options);
-  return {compared(options.b.filename().string(), options.a, options.b, options.difference)};
-}
-
-bool same(const Pair& pair) { return pair.comparison && render::within_tolerance(*pair.comparison); }
-
-Json as_json(const Pair& pair) {
-  if (!pair.comparison) return {{"name", pair.name}, {"missing_in", pair.missing_in}, {"same", false}};
+Json as_json(const ComparedPair& pair) {
+  Json json = {{"name", pair.name},
+               {"a", pair.a.string()},
+               {"b", pair.b.string()},
+               {"same", pair.verdict == Verdict::same},
+               {"readable", pair.verdict != Verdict::unreadable},
+               {"why", pair.why}};
+  if (!pair.comparison) return json;
   const render::Comparison& c = *pair.comparison;
-  return {{"name", pair.name},
-          {"max", c.max},
-          {"mean", c.mean},
-          {"rmse", c.rmse},
-          {"psnr", std::isfinite(c.psnr) ? Json(c.psnr) : Json()},
-          {"ssim", c.ssim},
-          {"share_over", c.share_over},
-          {"same", same(pair)}};
+  json.update({{"max", c.max},
+               {"worst", {c.worst_x, c.worst_y}},
+               {"mean", c.mean},
+               {"rmse", c.rmse},
+               {"psnr", std::isfinite(c.psnr) ? Json(c.psnr) : Json()},
+               {"ssim", c.ssim},
+               {"pixels", c.pixels},
+               {"over", c.over},
+               {"over_off_edges", c.over_off_edges},
+               {"share_over", c.share_over}});
+  if (c.flip) json["flip"] = *c.flip;
+  return json;
 }
 
-void print_line(const Pair& pair) {
+void print_line(const ComparedPair& pair) {
+  const std::string verdict =
+      pair.verdict == Verdict::same ? "same" : fmt::format("{}: {}", name_of(pair.verdict), pair.why);
   if (!pair.comparison) {
-    fmt::print("{:<32} missing in {}\n", pair.name, pair.missing_in);
+    fmt::print("{:<32} {:<66}{}\n", pair.name, "", verdict);
     return;
   }
   const render::Comparison& c = *pair.comparison;
-  fmt::print("{:<32} {:>4} {:>9.4f} {:>9.4f} {:>8.2f} {:>9.6f} {:>8.4f} %  {}\n", pair.name, c.max, c.mean, c.rmse,
-             c.psnr, c.ssim, 100.0 * c.share_over, same(pair) ? "same" : "DIFFERENT");
+  fmt::print("{:<32} {:>4} {:>9.4f} {:>9.4f} {:>8.2f} {:>9.6f} {:>8.4f} % {:>8} {}\n", pair.name, c.max, c.mean, c.rmse,
+             c.psnr, c.ssim, 100.0 * c.share_over, c.flip ? fmt::format("{:.5f}", *c.flip) : "", verdict);
+}
+
+void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
+  fmt::print("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}\n", "image", "max", "mean", "rmse", "psnr dB", "ssim",
+             fmt::format("over {}/255", options.what.threshold), options.what.flip ? "flip" : "");
+  for (const ComparedPair& pair : pairs) print_line(pair);
+  if (pairs.size() == 1) return;
+  const auto same = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.verdict == Verdict::same; });
+  fmt::print("{} of {} the same\n", same, pairs.size());
 }
 
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
-  const std::vector<Pair> pairs = compared_pairs(options);
-  const bool all_same = std::all_of(pairs.begin(), pairs.end(), same);
+  const std::vector<ComparedPair> pairs = compared_images(options);
+  const auto all = [&](Verdict verdict) {
+    return std::all_of(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
+  };
   if (options.json) {
-    Json json = {{"same", all_same}, {"images", Json::array()}};
-    for (const Pair& pair : pairs) json["images"].push_back(as_json(pair));
-    fmt::print("{}\n", json.dump(2));
+    Json json = {{"same", all(Verdict::same)}, {"images", Json::array()}};
+    for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    fmt::print("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10}\n", "image", "max", "mean", "rmse", "psnr dB", "ssim",
-               "over 3/255");
-    for (const Pair& pair : pairs) print_line(pair);
+    print_table(pairs, options);
   }
-  return all_same ? exit_done : exit_images_differ;
+  if (all(Verdict::unreadable)) throw InputError("no pair of images could be read");
+  return all(Verdict::same) ? exit_done : exit_images_differ;
 }
 
 }  // namespace billow::cli

@@ -5,12 +5,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <limits>
+#include <stdexcept>
 
 #include "base/error.h"
+#include "render/image/flip.h"
 
 namespace billow::render {
 namespace {
@@ -38,32 +40,32 @@ void luma(const std::uint8_t* row, int channels, Eigen::ArrayXd& result) {
 
 }  // namespace
 
-/// SSIM = (2 mu_a mu_b + C1)(2 s_ab + C2) / ((mu_a^2 + mu_b^2 + C1)(s_a^2 + s_b^2 + C2)), averaged over the image. The
-/// window is a product, so each row is blurred along itself once and waits until the rows around it have come.
+/// SSIM = (2 mu_a mu_b + C1)(2 s_ab + C2) / ((mu_a^2 + mu_b^2 + C1)(s_a^2 + s_b^2 + C2)), averaged over the pixels that
+/// count. The window is a product, so each row is blurred along itself once and waits until the rows around it have
+/// come.
 struct RowComparison::Similarity {
   Similarity(Eigen::Index width, Eigen::Index height)
-      : height(height),
-        a(width),
-        b(width),
+      : width(width),
+        height(height),
         inverse_weight(width),
         waiting(width, moments * rows),
+        counts(width, rows),
         mean(width, moments) {
     for (Eigen::Index x = 0; x < width; ++x) inverse_weight(x) = 1.0 / weight_inside(x, width);
   }
 
-  void add_row(const std::uint8_t* row_a, int channels_a, const std::uint8_t* row_b, int channels_b) {
-    luma(row_a, channels_a, a);
-    luma(row_b, channels_b, b);
+  void add_row(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b, const Eigen::ArrayXd& count) {
     blur_along(a, waiting.col(column(0, added)));
     blur_along(b, waiting.col(column(1, added)));
     blur_along(a.square() + b.square(), waiting.col(column(2, added)));
     blur_along(a * b, waiting.col(column(3, added)));
+    counts.col(added % rows) = count;
     if (++added > window_radius) judge();
   }
 
-  double finish() {
+  double finish(std::int64_t pixels) {
     while (judged < height) judge();
-    return sum / (static_cast<double>(height) * static_cast<double>(a.size()));
+    return sum / static_cast<double>(pixels);
   }
 
  private:
@@ -76,7 +78,6 @@ struct RowComparison::Similarity {
   template <class Values, class Blurred>
   void blur_along(const Values& values, Blurred&& blurred) const {
     const Eigen::ArrayXd line = values;
-    const Eigen::Index width = line.size();
     blurred.setZero();
     for (Eigen::Index begin = 0; begin < width; begin += block)
       for (int offset = -window_radius; offset <= window_radius; ++offset) {
@@ -91,8 +92,8 @@ struct RowComparison::Similarity {
   // The next row around which all rows are there that the image has.
   void judge() {
     const double scale = 1.0 / weight_inside(judged, height);
-    for (Eigen::Index begin = 0; begin < a.size(); begin += block) {
-      const Eigen::Index count = std::min(block, a.size() - begin);
+    for (Eigen::Index begin = 0; begin < width; begin += block) {
+      const Eigen::Index count = std::min(block, width - begin);
       for (Eigen::Index moment = 0; moment < moments; ++moment) {
         auto blurred = mean.col(moment).segment(begin, count);
         blurred.setZero();
@@ -109,63 +110,191 @@ struct RowComparison::Similarity {
     constexpr double c1 = (0.01 * 255.0) * (0.01 * 255.0), c2 = (0.03 * 255.0) * (0.03 * 255.0);
     const auto of = [&](Eigen::Index moment) { return mean.col(moment).segment(begin, count); };
     const Eigen::ArrayXd product = of(0) * of(1), squares = of(0).square() + of(1).square();
-    sum += ((2.0 * product + c1) * (2.0 * (of(3) - product) + c2) / ((squares + c1) * (of(2) - squares + c2))).sum();
+    const Eigen::ArrayXd similarity =
+        (2.0 * product + c1) * (2.0 * (of(3) - product) + c2) / ((squares + c1) * (of(2) - squares + c2));
+    sum += (similarity * counts.col(judged % rows).segment(begin, count)).sum();
   }
 
-  Eigen::Index height, added = 0, judged = 0;
-  Eigen::ArrayXd a, b, inverse_weight;
-  Eigen::ArrayXXd waiting, mean;
+  Eigen::Index width, height, added = 0, judged = 0;
+  Eigen::ArrayXd inverse_weight;
+  Eigen::ArrayXXd waiting, counts, mean;
   double sum = 0.0;
 };
 
-RowComparison::RowComparison(const Shape& a, const Shape& b, int threshold) : a_(a), b_(b), threshold_(threshold) {
+/// Which differing pixels lie at an edge that both images have: where the luma around one spans more than it does on a
+/// surface in both, a silhouette that is a fraction of a pixel aside explains the difference.
+struct RowComparison::Edges {
+  static constexpr double least_edge = 24.0;  // [1/255]
+  static constexpr Eigen::Index rows = 3;
+
+  explicit Edges(Eigen::Index width) : a(width, rows), b(width, rows), differs(width, rows) {}
+
+  void add_row(const Eigen::ArrayXd& luma_a, const Eigen::ArrayXd& luma_b, const Eigen::ArrayXd& over) {
+    a.col(added % rows) = luma_a;
+    b.col(added % rows) = luma_b;
+    differs.col(added % rows) = over;
+    if (++added > 1) judge(added - 2, added);
+  }
+
+  std::int64_t finish() {
+    judge(added - 1, added);
+    return off_edges;
+  }
+
+ private:
+  // A row, of the rows before `end`.
+  void judge(Eigen::Index row, Eigen::Index end) {
+    for (Eigen::Index x = 0; x < a.rows(); ++x)
+      if (differs(x, row % rows) != 0.0 && (span(a, x, row, end) <= least_edge || span(b, x, row, end) <= least_edge))
+        ++off_edges;
+  }
+
+  static double span(const Eigen::ArrayXXd& luma, Eigen::Index x, Eigen::Index row, Eigen::Index end) {
+    const Eigen::Index from = std::max<Eigen::Index>(x - 1, 0), count = std::min(x + 2, luma.rows()) - from;
+    double low = luma(x, row % rows), high = low;
+    for (Eigen::Index y = std::max<Eigen::Index>(row - 1, 0); y < std::min(row + 2, end); ++y) {
+      low = std::min(low, luma.col(y % rows).segment(from, count).minCoeff());
+      high = std::max(high, luma.col(y % rows).segment(from, count).maxCoeff());
+    }
+    return high - low;
+  }
+
+  Eigen::ArrayXXd a, b, differs;
+  Eigen::Index added = 0;
+  std::int64_t off_edges = 0;
+};
+
+/// ꟻLIP's errors, summed over the pixels that count; a row's come when those below it are there.
+struct RowComparison::Flips {
+  Flips(int width, int height)
+      : flip(width, height, [this](int, const Eigen::ArrayXd& errors) {
+          sum += (errors * waiting.front()).sum();
+          waiting.pop_front();
+        }) {}
+
+  std::deque<Eigen::ArrayXd> waiting;
+  double sum = 0.0;
+  Flip flip;
+};
+
+RowComparison::RowComparison(const Shape& a, const Shape& b, const ComparisonOptions& options)
+    : width_(a.width),
+      a_channels_(a.channels),
+      b_channels_(b.channels),
+      channels_(options.ignore_alpha ? 3 : std::max(a.channels, b.channels)),
+      threshold_(options.threshold) {
   if (a.width != b.width || a.height != b.height)
     throw InputError(
         fmt::format("the images differ in size: {} x {} and {} x {}", a.width, a.height, b.width, b.height));
   if (a.width <= 0 || a.height <= 0) throw InputError("the images have no pixels");
   similarity_ = std::make_unique<Similarity>(a.width, a.height);
+  edges_ = std::make_unique<Edges>(a.width);
+  if (options.flip) flips_ = std::make_unique<Flips>(a.width, a.height);
 }
 
 RowComparison::~RowComparison() = default;
 
-void RowComparison::add_row(const std::uint8_t* a, const std::uint8_t* b) {
-  similarity_->add_row(a, a_.channels, b, b_.channels);
-  const int channels = std::max(a_.channels, b_.channels);
-  long sum = 0, squares = 0;
-  for (int x = 0; x < a_.width; ++x, a += a_.channels, b += b_.channels) {
+void RowComparison::add_row(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* counts) {
+  Eigen::ArrayXd luma_a(width_), luma_b(width_), counted(width_), over(width_);
+  luma(a, a_channels_, luma_a);
+  luma(b, b_channels_, luma_b);
+  const std::uint8_t *row_a = a, *row_b = b;
+  std::int64_t sum = 0, squares = 0;
+  for (int x = 0; x < width_; ++x, a += a_channels_, b += b_channels_) {
+    counted(x) = !counts || counts[x] != 0 ? 1.0 : 0.0;
+    over(x) = 0.0;
+    if (counted(x) == 0.0) continue;
     int largest = 0;
-    for (int c = 0; c < channels; ++c) {
-      const int d = std::abs(channel(a, a_.channels, c) - channel(b, b_.channels, c));
+    for (int c = 0; c < channels_; ++c) {
+      const int d = std::abs(channel(a, a_channels_, c) - channel(b, b_channels_, c));
       largest = std::max(largest, d);
       sum += d;
       squares += d * d;
     }
-    max_ = std::max(max_, largest);
-    over_ += largest > threshold_;
+    if (largest > result_.max) result_.max = largest, result_.worst_x = x, result_.worst_y = static_cast<int>(rows_);
+    over(x) = largest > threshold_ ? 1.0 : 0.0;
+    result_.over += largest > threshold_;
+    ++result_.pixels;
   }
   sum_ += static_cast<double>(sum);
   squares_ += static_cast<double>(squares);
+  similarity_->add_row(luma_a, luma_b, counted);
+  edges_->add_row(luma_a, luma_b, over);
+  if (flips_) {
+    flips_->waiting.push_back(counted);
+    flips_->flip.add_row(row_a, a_channels_, row_b, b_channels_);
+  }
+  ++rows_;
 }
 
 Comparison RowComparison::finish() {
-  const double pixels = double(a_.width) * a_.height, values = pixels * std::max(a_.channels, b_.channels);
-  Comparison result;
-  result.max = max_;
-  result.mean = sum_ / values;
-  result.rmse = std::sqrt(squares_ / values);
-  result.psnr = result.rmse > 0.0 ? 20.0 * std::log10(255.0 / result.rmse) : std::numeric_limits<double>::infinity();
-  result.ssim = similarity_->finish();
-  result.share_over = static_cast<double>(over_) / pixels;
-  return result;
+  if (result_.pixels == 0) throw InputError("no pixel counts: the mask is black everywhere; make white what counts");
+  const double values = static_cast<double>(result_.pixels) * channels_;
+  result_.mean = sum_ / values;
+  result_.rmse = std::sqrt(squares_ / values);
+  result_.psnr = result_.rmse > 0.0 ? 20.0 * std::log10(255.0 / result_.rmse) : std::numeric_limits<double>::infinity();
+  result_.ssim = similarity_->finish(result_.pixels);
+  result_.over_off_edges = edges_->finish();
+  if (flips_) {
+    flips_->flip.finish();
+    result_.flip = flips_->sum / static_cast<double>(result_.pixels);
+  }
+  result_.share_over = static_cast<double>(result_.over) / static_cast<double>(result_.pixels);
+  return result_;
 }
 
-Comparison compare(const Image& a, const Image& b, int threshold) {
-  RowComparison comparison({a.width, a.height, a.channels}, {b.width, b.height, b.channels}, threshold);
+Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
+  RowComparison comparison({a.width, a.height, a.channels}, {b.width, b.height, b.channels}, options);
   for (int y = 0; y < a.height; ++y) comparison.add_row(a.row(y), b.row(y));
   return comparison.finish();
 }
 
-bool within_tolerance(const Comparison& comparison) { return comparison.max <= 16 && comparison.share_over <= 0.01; }
+Words<Metric> words(Metric) {
+  static constexpr Word<Metric> list[] = {{"max", Metric::max},
+                                          {"rmse", Metric::rmse},
+                                          {"psnr", Metric::psnr},
+                                          {"ssim", Metric::ssim},
+                                          {"flip", Metric::flip}};
+  return list;
+}
+
+namespace {
+
+bool holds(const Comparison& c, const MetricLimit& m) {
+  switch (m.metric) {
+    case Metric::max:
+      return c.max <= m.limit;
+    case Metric::rmse:
+      return c.rmse <= m.limit;
+    case Metric::psnr:
+      return c.psnr >= m.limit;
+    case Metric::ssim:
+      return c.ssim >= m.limit;
+    case Metric::flip:
+      return c.flip.value() <= m.limit;
+  }
+  throw std::logic_error("a metric has no rule");
+}
+
+}  // namespace
+
+bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance) {
+  if (!tolerance.metrics.empty())
+    return std::all_of(tolerance.metrics.begin(), tolerance.metrics.end(),
+                       [&](const MetricLimit& limit) { return holds(comparison, limit); });
+  const bool few = tolerance.pixels ? comparison.over <= *tolerance.pixels : comparison.share_over <= tolerance.share;
+  return comparison.max <= tolerance.worst && few;
+}
+
+std::string difference_text(const Comparison& c, int threshold) {
+  if (c.max == 0) return "equal";
+  const std::string worst = fmt::format("worst {} at ({}, {})", c.max, c.worst_x, c.worst_y);
+  if (c.over == 0) return fmt::format("no pixel over {}/255, {}", threshold, worst);
+  const std::string where = c.over_off_edges == 0        ? "all within 1 px of an edge"
+                            : c.over_off_edges == c.over ? "none at an edge"
+                                                         : fmt::format("{} off any edge", c.over_off_edges);
+  return fmt::format("{} px over {}/255 ({:.2g} %), {}, {}", c.over, threshold, 100.0 * c.share_over, worst, where);
+}
 
 void difference_row(const std::uint8_t* a, int a_channels, const std::uint8_t* b, int b_channels, int width,
                     std::uint8_t* row) {

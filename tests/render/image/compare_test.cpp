@@ -43,7 +43,7 @@ TEST(Compare, GivesAConstantOffsetItsClosedForms) {
   EXPECT_DOUBLE_EQ(c.rmse, 10.0);
   EXPECT_DOUBLE_EQ(c.psnr, 20.0 * std::log10(25.5));
   EXPECT_EQ(c.share_over, 1.0);
-  EXPECT_EQ(compare(noisy(40, 30), offset(noisy(40, 30), 10), 10).share_over, 0.0);
+  EXPECT_EQ(compare(noisy(40, 30), offset(noisy(40, 30), 10), {.threshold = 10}).share_over, 0.0);
 }
 
 // Flat images have no variance, so SSIM is its luminance term alone: (2 a b + C1) / (a^2 + b^2 + C1).

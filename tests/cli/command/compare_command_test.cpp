@@ -1,0 +1,191 @@
+// billow compare from outside: what it says of each pair, and how it ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/image/png.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/tool.h"
+
+namespace billow {
+namespace {
+
+using render::Image;
+using test::ToolResult;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+class CompareCommand : public testing::Test {
+ protected:
+  // Dark on the left, light on the right.
+  static Image picture(int width = 20, int height = 10, int channels = 3) {
+    Image image(width, height, channels);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < channels; ++c) image.row(y)[x * channels + c] = x < width / 2 ? 40 : 200;
+    return image;
+  }
+
+  static Image changed(Image image, int x, int y, int by) {
+    for (int c = 0; c < 3; ++c)
+      image.row(y)[x * image.channels + c] = static_cast<std::uint8_t>(image.row(y)[x * image.channels + c] + by);
+    return image;
+  }
+
+  void write(const std::string& name, const Image& image) const {
+    std::filesystem::create_directories((folder_.path() / name).parent_path());
+    render::write_png(folder_.path() / name, image);
+  }
+
+  ToolResult compare(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "compare");
+    return test::run_tool(arguments, folder_.path());
+  }
+
+  // The one row of two images that differ.
+  std::string why(const Image& a, const Image& b) const {
+    write("a.png", a);
+    write("b.png", b);
+    return Json::parse(compare({"a.png", "b.png", "--json"}).output)["images"][0]["why"];
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CompareCommand, JudgesEveryPairOfTwoFolders) {
+  write("a/1 size.png", picture(3, 3));
+  write("b/1 size.png", picture(2, 3));
+  write("a/2 content.png", picture());
+  write("b/2 content.png", changed(picture(), 3, 4, 90));
+  write("a/3 damaged.png", picture());
+  folder_.write("b/3 damaged.png", "\x89PNG\r\n");
+  write("a/4 same.PNG", picture());
+  write("b/4 same.PNG", picture());
+  write("a/below/5 gone.png", picture());
+  write("b/6 new.png", picture());
+  folder_.write("b/no image.txt", "");
+  const ToolResult result = compare({"a", "b"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: 3 x 3 and 2 x 3 pixels\n"));
+  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: 1 px over 3/255 (0.5 %), worst 90 at (3, 4), none at an edge"));
+  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/3 damaged.png: "));
+  EXPECT_THAT(result.output, HasSubstr("  same\n"));
+  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: missing in a\n"));
+  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: missing in b\n1 of 6 the same\n"));
+
+  const Json json = Json::parse(compare({"a", "b", "--json"}).output);
+  EXPECT_EQ(json["same"], false);
+  ASSERT_EQ(json["images"].size(), 6u);
+  EXPECT_EQ(json["images"][1]["name"], "2 content.png");
+  EXPECT_EQ(json["images"][1]["a"], "a/2 content.png");
+  EXPECT_EQ(json["images"][1]["worst"], (Json{3, 4}));
+  EXPECT_EQ(json["images"][2]["readable"], false);
+  EXPECT_EQ(json["images"][3]["same"], true);
+}
+
+TEST_F(CompareCommand, EndsWith4OnlyWhereNothingCouldBeCompared) {
+  write("a/1.png", picture());
+  folder_.write("b/1.png", "no image");
+  const ToolResult result = compare({"a", "b"});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/1.png: is not a PNG image"));
+  EXPECT_EQ(result.errors, "no pair of images could be read\n");
+  EXPECT_EQ(compare({"a/1.png", "b/1.png"}).errors, "b/1.png: is not a PNG image\n");
+  write("a/2.png", picture());
+  EXPECT_EQ(compare({"a", "b"}).status, 3);
+}
+
+TEST_F(CompareCommand, SaysWhereTheDifferenceIs) {
+  EXPECT_EQ(why(picture(), picture()), "equal");
+  EXPECT_EQ(why(picture(), changed(picture(), 7, 2, 2)), "no pixel over 3/255, worst 2 at (7, 2)");
+  EXPECT_EQ(why(picture(), changed(picture(), 3, 5, 10)),
+            "1 px over 3/255 (0.5 %), worst 10 at (3, 5), none at an edge");
+  EXPECT_EQ(why(picture(), changed(changed(picture(), 9, 0, 10), 10, 9, 12)),
+            "2 px over 3/255 (1 %), worst 12 at (10, 9), all within 1 px of an edge");
+  EXPECT_EQ(why(picture(), changed(changed(picture(), 8, 0, 10), 10, 9, 12)),
+            "2 px over 3/255 (1 %), worst 12 at (10, 9), 1 off any edge");
+}
+
+TEST_F(CompareCommand, TakesOtherTolerances) {
+  write("a.png", picture());
+  write("b.png", changed(changed(picture(), 3, 5, 30), 4, 6, 20));
+  const auto status = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"a.png", "b.png"});
+    return compare(more).status;
+  };
+  EXPECT_EQ(status({}), 3);                 // 30 is over 16
+  EXPECT_EQ(status({"--worst", "30"}), 0);  // 2 of 200 pixels are 1 %
+  EXPECT_EQ(status({"--worst", "29"}), 3);
+  EXPECT_EQ(status({"--worst", "30", "--pixels", "0.9%"}), 3);
+  EXPECT_EQ(status({"--worst", "30", "--pixels", "2"}), 0);
+  EXPECT_EQ(status({"--worst", "30", "--pixels", "1"}), 3);
+  EXPECT_EQ(status({"--worst", "30", "--pixels", "1", "--channel", "20"}), 0);
+  EXPECT_EQ(status({"--worst", "30", "--pixels", "0", "--channel", "30"}), 0);
+  for (const char* wrong : {"-1", "1.5", "101%", "nan", "x", "%", "1%%", "2 %"})
+    EXPECT_EQ(status({std::string("--pixels=") + wrong}), 2) << wrong;
+  EXPECT_EQ(status({"--worst", "256"}), 2);
+  EXPECT_EQ(status({"--channel", "-1"}), 2);
+}
+
+TEST_F(CompareCommand, JudgesByTheMetricsThatItIsGiven) {
+  write("a.png", picture());
+  write("b.png", changed(picture(), 3, 5, 30));
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"a.png", "b.png", "--json"});
+    return compare(more);
+  };
+  const Json found = Json::parse(with({"--metric", "flip=1"}).output)["images"][0];
+  const double rmse = found["rmse"], psnr = found["psnr"], ssim = found["ssim"], flip = found["flip"];
+  EXPECT_GT(flip, 0.0);
+  EXPECT_LT(flip, 0.1);
+  const auto status = [&](const std::string& metric, double limit) {
+    return with({"--metric", metric + "=" + std::to_string(limit)}).status;
+  };
+  EXPECT_EQ(status("max", 30), 0);
+  EXPECT_EQ(status("max", 29), 3);
+  EXPECT_EQ(status("rmse", rmse + 0.001), 0);
+  EXPECT_EQ(status("rmse", rmse - 0.001), 3);
+  EXPECT_EQ(status("psnr", psnr - 0.001), 0);
+  EXPECT_EQ(status("psnr", psnr + 0.001), 3);
+  EXPECT_EQ(status("ssim", ssim - 0.001), 0);
+  EXPECT_EQ(status("ssim", ssim + 0.001), 3);
+  EXPECT_EQ(status("flip", flip + 0.00001), 0);
+  EXPECT_EQ(status("flip", flip - 0.00001), 3);
+  EXPECT_EQ(with({"--metric", "max=30", "--metric", "rmse=0.1"}).status, 3);
+  for (const char* wrong : {"flap=1", "flip", "flip=", "flip=x", "flip=-1", "=1", "flip=1x"})
+    EXPECT_EQ(with({"--metric", wrong}).status, 2) << wrong;
+  EXPECT_EQ(with({"--metric", "max=1", "--worst", "3"}).status, 2);
+}
+
+TEST_F(CompareCommand, CountsWhatTheMaskLeaves) {
+  write("a.png", picture());
+  write("b.png", changed(picture(), 3, 5, 100));
+  Image mask(20, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x)
+      for (int c = 0; c < 3; ++c) mask.row(y)[3 * x + c] = x == 3 ? 127 : 128;
+  write("mask.png", mask);
+  EXPECT_EQ(compare({"a.png", "b.png", "--mask", "mask.png"}).status, 0);
+  const Json json = Json::parse(compare({"a.png", "b.png", "--mask", "mask.png", "--json"}).output);
+  EXPECT_EQ(json["images"][0]["pixels"], 190);
+  EXPECT_EQ(json["images"][0]["max"], 0);
+
+  write("black.png", Image(20, 10));
+  EXPECT_EQ(compare({"a.png", "b.png", "--mask", "black.png"}).errors,
+            "no pixel counts: the mask is black everywhere; make white what counts\n");
+  write("small.png", picture(4, 4));
+  const ToolResult small = compare({"a.png", "b.png", "--mask", "small.png"});
+  EXPECT_EQ(small.status, 4);
+  EXPECT_EQ(small.errors, "small.png: the mask has 4 x 4 pixels and the image 20 x 10\n");
+}
+
+TEST_F(CompareCommand, CanIgnoreAlpha) {
+  write("a.png", picture(20, 10, 3));
+  write("b.png", picture(20, 10, 4));
+  EXPECT_EQ(compare({"a.png", "b.png"}).status, 3);
+  EXPECT_EQ(compare({"a.png", "b.png", "--ignore-alpha"}).status, 0);
+}
+
+}  // namespace
+}  // namespace billow
