@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -38,22 +37,6 @@ std::vector<FrameSpan> parse_frame_list(const std::string& text) {
   if (!spans)
     throw CLI::ValidationError("--frames", fmt::format("'{}' is no list of frames like 1-250,300-:5 or 7", text));
   return *spans;
-}
-
-// "250", or "0.5%"
-void parse_pixels(const std::string& text, render::Tolerance& tolerance) {
-  const char* const end = text.data() + text.size();
-  double number = 0.0;
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  const bool is_share = rest + 1 == end && *rest == '%';
-  const bool is_count = rest == end && number == std::floor(number) && number < 1e15;
-  if (error != std::errc() || !(number >= 0.0) || !(is_share ? number <= 100.0 : is_count))
-    throw CLI::ValidationError("--pixels",
-                               fmt::format("'{}' is neither a number of pixels like 250 nor a share like 0.5%", text));
-  if (is_share)
-    tolerance.share = number / 100.0;
-  else
-    tolerance.pixels = static_cast<std::int64_t>(number);
 }
 
 // "ssim=0.99"
@@ -200,16 +183,27 @@ void add_filter(CLI::App& app, Request& r) {
   });
 }
 
+void set_tolerance(Request& r) {
+  ImageTolerance& tolerance = r.compare.tolerance;
+  if (!r.pixels.empty() && !read_pixels(r.pixels, tolerance.allowed))
+    throw CLI::ValidationError(
+        "--pixels", fmt::format("'{}' is neither a number of pixels like 250 nor a share like 0.5%", r.pixels));
+  for (const std::string& text : r.metrics) tolerance.allowed.metrics.push_back(parse_metric(text));
+  for (const render::MetricLimit& limit : tolerance.allowed.metrics)
+    tolerance.what.flip = tolerance.what.flip || limit.metric == render::Metric::flip;
+}
+
 void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
   c.add_option("B", r.compare.b, "Image or folder")->required();
   c.add_option("--diff", r.compare.difference, "Write the difference image, times 8")->type_name("FILE");
-  c.add_option("--channel", r.compare.what.threshold, "A pixel differs when a channel does by more (default: 3)")
+  c.add_option("--channel", r.compare.tolerance.what.threshold,
+               "A pixel differs when a channel does by more (default: 3)")
       ->check(CLI::Range(0, 255))
       ->type_name("N");
   c.add_option("--pixels", r.pixels, "So many pixels, or so much of all, may differ (default: 1%)")->type_name("N|N%");
-  c.add_option("--worst", r.compare.tolerance.worst, "No channel may differ by more (default: 16)")
+  c.add_option("--worst", r.compare.tolerance.allowed.worst, "No channel may differ by more (default: 16)")
       ->check(CLI::Range(0, 255))
       ->type_name("N");
   c.add_option("--metric", r.metrics,
@@ -218,14 +212,20 @@ void add_compare(CLI::App& app, Request& r) {
       ->allow_extra_args(false)
       ->excludes("--pixels")
       ->excludes("--worst");
-  c.add_option("--mask", r.compare.mask, "PNG of the images' size: what is white in it counts")->type_name("FILE");
-  c.add_flag("--ignore-alpha", r.compare.what.ignore_alpha, "Compare colours only");
+  c.add_option("--mask", r.compare.tolerance.mask, "PNG of the images' size: what is white in it counts")
+      ->type_name("FILE");
+  c.add_flag("--ignore-alpha", r.compare.tolerance.what.ignore_alpha, "Compare colours only");
+  c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")->type_name("DIR");
+  CLI::Option* accept =
+      c.add_option("--accept", r.compare.accept_only,
+                   "Copy what differs or is new from B to A: all, or these names (not where CI is set)")
+          ->type_name("[NAME ...]")
+          ->expected(0, CLI::detail::expected_max_vector_size);
   c.add_flag("--json", r.compare.json, "Print JSON");
-  c.final_callback([&r] {
-    if (!r.pixels.empty()) parse_pixels(r.pixels, r.compare.tolerance);
-    for (const std::string& text : r.metrics) r.compare.tolerance.metrics.push_back(parse_metric(text));
-    for (const render::MetricLimit& limit : r.compare.tolerance.metrics)
-      r.compare.what.flip = r.compare.what.flip || limit.metric == render::Metric::flip;
+  c.final_callback([&r, accept] {
+    set_tolerance(r);
+    r.compare.accept = accept->count() > 0;
+    std::erase(r.compare.accept_only, "");  // which stands for no name
     r.command = [&r] { return compare_command(r.compare); };
   });
 }

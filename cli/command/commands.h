@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/command/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
-#include "render/image/compare.h"
 
 namespace billow::cli {
 
@@ -46,9 +46,10 @@ int filter_command(const FilterCommandOptions& options);
 struct CompareOptions {
   std::filesystem::path a, b;
   std::filesystem::path difference;  // empty: none written
-  std::filesystem::path mask;        // empty: every pixel counts
-  render::ComparisonOptions what;
-  render::Tolerance tolerance;
+  std::filesystem::path report;      // folder of the page; empty: none written
+  ImageTolerance tolerance;
+  bool accept = false;                   // copy from B to A what differs or is new
+  std::vector<std::string> accept_only;  // of these names; empty: all
   bool json = false;
 };
 int compare_command(const CompareOptions& options);

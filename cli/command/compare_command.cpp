@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/command/compare_report.h"
 #include "cli/command/compared_images.h"
 
 namespace billow::cli {
@@ -16,10 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(Verdict verdict) {
-  return verdict == Verdict::same ? "same" : verdict == Verdict::different ? "DIFFERENT" : "UNREADABLE";
-}
-
 Json as_json(const ComparedPair& pair) {
   Json json = {{"name", pair.name},
                {"a", pair.a.string()},
@@ -27,6 +24,7 @@ Json as_json(const ComparedPair& pair) {
                {"same", pair.verdict == Verdict::same},
                {"readable", pair.verdict != Verdict::unreadable},
                {"why", pair.why}};
+  if (!pair.reason.empty()) json["reason"] = pair.reason;
   if (!pair.comparison) return json;
   const render::Comparison& c = *pair.comparison;
   json.update({{"max", c.max},
@@ -44,8 +42,9 @@ Json as_json(const ComparedPair& pair) {
 }
 
 void print_line(const ComparedPair& pair) {
+  const std::string reason = pair.reason.empty() ? "" : fmt::format(" (by its own tolerance: {})", pair.reason);
   const std::string verdict =
-      pair.verdict == Verdict::same ? "same" : fmt::format("{}: {}", name_of(pair.verdict), pair.why);
+      (pair.verdict == Verdict::same ? "same" : fmt::format("{}: {}", name_of(pair.verdict), pair.why)) + reason;
   if (!pair.comparison) {
     fmt::print("{:<32} {:<66}{}\n", pair.name, "", verdict);
     return;
@@ -57,7 +56,7 @@ void print_line(const ComparedPair& pair) {
 
 void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
   fmt::print("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}\n", "image", "max", "mean", "rmse", "psnr dB", "ssim",
-             fmt::format("over {}/255", options.what.threshold), options.what.flip ? "flip" : "");
+             fmt::format("over {}/255", options.tolerance.what.threshold), options.tolerance.what.flip ? "flip" : "");
   for (const ComparedPair& pair : pairs) print_line(pair);
   if (pairs.size() == 1) return;
   const auto same = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.verdict == Verdict::same; });
@@ -67,16 +66,20 @@ void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& o
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
-  const std::vector<ComparedPair> pairs = compared_images(options);
+  std::vector<ComparedPair> pairs = compared_images(options);
+  std::vector<std::string> accepted;
+  if (options.accept) accepted = accept(pairs, options);
   const auto all = [&](Verdict verdict) {
     return std::all_of(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
   };
+  if (!options.report.empty()) write_compare_report(options.report, pairs, options);
   if (options.json) {
-    Json json = {{"same", all(Verdict::same)}, {"images", Json::array()}};
+    Json json = {{"same", all(Verdict::same)}, {"accepted", accepted}, {"images", Json::array()}};
     for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     print_table(pairs, options);
+    for (const std::string& name : accepted) fmt::print("accepted {}\n", name);
   }
   if (all(Verdict::unreadable)) throw InputError("no pair of images could be read");
   return all(Verdict::same) ? exit_done : exit_images_differ;

@@ -293,7 +293,9 @@ std::string difference_text(const Comparison& c, int threshold) {
   const std::string where = c.over_off_edges == 0        ? "all within 1 px of an edge"
                             : c.over_off_edges == c.over ? "none at an edge"
                                                          : fmt::format("{} off any edge", c.over_off_edges);
-  return fmt::format("{} px over {}/255 ({:.2g} %), {}, {}", c.over, threshold, 100.0 * c.share_over, worst, where);
+  const double percent = 100.0 * c.share_over;
+  return fmt::format("{} px over {}/255 ({:.{}g} %), {}, {}", c.over, threshold, percent, percent < 10.0 ? 2 : 3, worst,
+                     where);
 }
 
 void difference_row(const std::uint8_t* a, int a_channels, const std::uint8_t* b, int b_channels, int width,

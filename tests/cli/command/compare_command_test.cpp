@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "render/image/png.h"
@@ -185,6 +186,100 @@ TEST_F(CompareCommand, CanIgnoreAlpha) {
   write("b.png", picture(20, 10, 4));
   EXPECT_EQ(compare({"a.png", "b.png"}).status, 3);
   EXPECT_EQ(compare({"a.png", "b.png", "--ignore-alpha"}).status, 0);
+}
+
+TEST_F(CompareCommand, TakesTheToleranceBesideABaseline) {
+  write("a/1.png", picture());
+  write("b/1.png", changed(picture(), 3, 5, 60));
+  write("a/2.png", picture());
+  write("b/2.png", changed(picture(), 3, 5, 60));
+  folder_.write("a/1.tolerance.yaml", "reason: a lamp flickers\nworst: 60\npixels: 1\n");
+  const ToolResult result = compare({"a", "b"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.output, HasSubstr("same (by its own tolerance: a lamp flickers)\n"));
+  EXPECT_THAT(result.output, HasSubstr("1 of 2 the same\n"));
+  folder_.write("a/2.tolerance.yaml", "reason: r\nmetrics: {ssim: 0.5, flip: 0.2}\n");
+  EXPECT_EQ(compare({"a", "b"}).status, 0);
+  EXPECT_EQ(compare({"a/1.png", "b/1.png"}).status, 0);
+}
+
+TEST_F(CompareCommand, SaysWhatIsWrongWithATolerance) {
+  write("a/1.png", picture());
+  write("b/1.png", picture());
+  write("a/2.png", picture());
+  write("b/2.png", picture());
+  const auto fault = [&](const std::string& text) {
+    folder_.write("a/1.tolerance.yaml", text);
+    const Json json = Json::parse(compare({"a", "b", "--json"}).output);
+    EXPECT_EQ(json["images"][1]["same"], true);  // the other is judged all the same
+    EXPECT_EQ(json["images"][0]["readable"], false);
+    const std::string why = json["images"][0]["why"];
+    return why.substr(why.find("1.tol"));
+  };
+  EXPECT_EQ(
+      fault("worst: 20\n"),
+      "1.tolerance.yaml:1:1: the tolerance needs the key 'reason'; say why this picture needs another tolerance");
+  EXPECT_EQ(fault("reason: ' '\n"),
+            "1.tolerance.yaml:1:9: the reason is empty; say why this picture needs another tolerance");
+  EXPECT_EQ(fault("reason: r\npixels: many\n"),
+            "1.tolerance.yaml:2:9: pixels is 'many', and should be a number like 250 or a share like 0.5%");
+  EXPECT_THAT(fault("reason: r\nworst: 256\n"), HasSubstr("1.tolerance.yaml:2:8: "));
+  EXPECT_THAT(fault("reason: r\nmetrics: {flap: 1}\n"), HasSubstr("did you mean 'flip'?"));
+}
+
+TEST_F(CompareCommand, TakesAnyVersionOfABaseline) {
+  write("a/1.png", picture());
+  write("a/1.1.png", changed(picture(), 3, 5, 60));
+  write("a/1.2.png", changed(picture(), 4, 5, 60));
+  write("b/1.png", changed(picture(), 4, 5, 60));
+  const Json json = Json::parse(compare({"a", "b", "--json"}).output);
+  ASSERT_EQ(json["images"].size(), 1u);
+  EXPECT_EQ(json["images"][0]["a"], "a/1.2.png");
+  EXPECT_EQ(json["same"], true);
+  write("b/1.png", changed(picture(), 5, 5, 60));
+  EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"][0]["a"], "a/1.png");
+  write("b/1.1.png", picture());  // now both folders have it: a picture of its own
+  EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"].size(), 2u);
+}
+
+TEST_F(CompareCommand, AcceptsWhatDiffersOrIsNewAndNothingElse) {
+  unsetenv("CI");
+  const Image other = changed(picture(), 3, 5, 60);
+  write("a/differs.png", picture());
+  write("b/differs.png", other);
+  write("a/near.png", picture());
+  write("b/near.png", changed(picture(), 3, 5, 1));
+  write("b/below/new.png", other);
+  write("a/gone.png", picture());
+  write("a/broken.png", picture());
+  folder_.write("b/broken.png", "no image");
+  const std::string near = test::read_text(folder_.path() / "a/near.png");
+  EXPECT_EQ(compare({"a", "b", "--accept", "differ.png"}).errors,
+            "--accept: there is no image 'differ.png'; did you mean 'differs.png'?\n");
+  EXPECT_THAT(compare({"a", "b", "--accept", "below/new.png"}).output, HasSubstr("accepted below/new.png\n"));
+  EXPECT_EQ(render::read_png(folder_.path() / "a/below/new.png").pixels, other.pixels);
+  EXPECT_EQ(render::read_png(folder_.path() / "a/differs.png").pixels, picture().pixels);
+
+  const ToolResult all = compare({"a", "b", "--accept"});
+  EXPECT_EQ(all.status, 3);  // one is gone, one broken
+  EXPECT_THAT(all.output, HasSubstr("accepted differs.png\n"));
+  EXPECT_EQ(render::read_png(folder_.path() / "a/differs.png").pixels, other.pixels);
+  EXPECT_EQ(test::read_text(folder_.path() / "a/near.png"), near);
+  EXPECT_EQ(render::read_png(folder_.path() / "a/broken.png").pixels, picture().pixels);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a/gone.png"));
+}
+
+TEST_F(CompareCommand, AcceptsNothingWhereNobodyLooks) {
+  write("a.png", picture());
+  write("b.png", changed(picture(), 3, 5, 60));
+  setenv("CI", "true", 1);
+  const ToolResult result = compare({"a.png", "b.png", "--accept"});
+  unsetenv("CI");
+  EXPECT_EQ(result.status, 4);
+  EXPECT_THAT(result.errors, HasSubstr("--accept: CI is set in the environment"));
+  EXPECT_EQ(render::read_png(folder_.path() / "a.png").pixels, picture().pixels);
+  EXPECT_EQ(compare({"a.png", "b.png", "--accept"}).status, 0);
+  EXPECT_EQ(compare({"a.png", "b.png"}).status, 0);
 }
 
 }  // namespace

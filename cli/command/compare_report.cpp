@@ -1,0 +1,140 @@
+// Pairs -> a page with the pictures inside.
+#include "cli/command/compare_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "cli/cache/base64.h"
+#include "cli/page/page_file.h"
+#include "cli/page/report_page.h"
+#include "cli/run/output_folder.h"
+#include "render/image/colour_map.h"
+#include "render/image/flip.h"
+#include "render/image/png.h"
+
+namespace billow::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_pictures = 40;  // that a page holds
+
+// What needs a look first comes first.
+bool needs_a_look_before(const ComparedPair& a, const ComparedPair& b) {
+  const auto rank = [](const ComparedPair& pair) {
+    const bool whole = pair.comparison.has_value();
+    return std::make_tuple(pair.verdict == Verdict::unreadable  ? 0
+                           : pair.verdict == Verdict::different ? 1
+                                                                : 2,
+                           whole, whole ? -pair.comparison->share_over : 0.0, whole ? -pair.comparison->max : 0);
+  };
+  return rank(a) != rank(b) ? rank(a) < rank(b) : a.name < b.name;
+}
+
+std::string data_uri(std::string_view png) { return "data:image/png;base64," + base64(png); }
+
+// A file as it is; nothing where there is none.
+Json file_uri(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  return stream ? Json(data_uri(bytes)) : Json();
+}
+
+// ꟻLIP's errors as colours.
+Json flip_uri(const ComparedPair& pair) {
+  if (!pair.comparison) return {};
+  render::PngRows a(pair.a), b(pair.b);
+  render::Image map(a.width(), a.height());
+  render::Flip flip(map.width, map.height, [&](int y, const Eigen::ArrayXd& errors) {
+    for (int x = 0; x < map.width; ++x) {
+      const render::Rgb8 colour = render::magnitude_rgb(errors(x));
+      std::copy(colour.begin(), colour.end(), map.row(y) + 3 * x);
+    }
+  });
+  std::vector<std::uint8_t> row_a(std::size_t(a.width()) * a.channels()), row_b(std::size_t(b.width()) * b.channels());
+  for (int y = 0; y < map.height; ++y) {
+    a.read(row_a.data()), b.read(row_b.data());
+    flip.add_row(row_a.data(), a.channels(), row_b.data(), b.channels());
+  }
+  flip.finish();
+  return data_uri(render::encode_png(map));
+}
+
+Json picture_of(const ComparedPair& pair) {
+  Json json = {{"name", pair.name},
+               {"a", pair.a.string()},
+               {"b", pair.b.string()},
+               {"why", fmt::format("{}: {}", name_of(pair.verdict), pair.why)}};
+  if (pair.comparison) json["worst"] = {pair.comparison->worst_x, pair.comparison->worst_y};
+  json["data_a"] = file_uri(pair.a);
+  json["data_b"] = file_uri(pair.b);
+  json["data_flip"] = flip_uri(pair);
+  return json;
+}
+
+std::string numbers(const ComparedPair& pair) {
+  if (!pair.comparison) return "<td></td><td></td><td></td><td></td><td></td><td></td>";
+  const render::Comparison& c = *pair.comparison;
+  const auto cell = [](const std::string& text) { return fmt::format("<td class=\"number\">{}</td>", text); };
+  return cell(std::to_string(c.max)) + cell(fmt::format("{:.3f}", c.rmse)) +
+         cell(std::isfinite(c.psnr) ? fmt::format("{:.1f} dB", c.psnr) : "∞") + cell(fmt::format("{:.5f}", c.ssim)) +
+         cell(c.flip ? fmt::format("{:.4f}", *c.flip) : "") + cell(fmt::format("{:.3g} %", 100.0 * c.share_over));
+}
+
+std::string row_of(const ComparedPair& pair, std::size_t number) {
+  const bool shown = number < most_pictures;
+  const std::string name = html_escape(pair.name);
+  const std::string reason = pair.reason.empty() ? "" : fmt::format("; its own tolerance: {}", pair.reason);
+  return fmt::format("<tr{}{}><td>{}</td><td>{}</td>{}<td>{}</td></tr>\n",
+                     shown ? fmt::format(" data-picture=\"{}\"", number) : "",
+                     pair.verdict == Verdict::same ? "" : " class=\"bad\"",
+                     shown ? fmt::format("<button type=\"button\">{}</button>", name) : name, name_of(pair.verdict),
+                     numbers(pair), html_escape(pair.why + reason));
+}
+
+std::string summary(const std::vector<ComparedPair>& pairs) {
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
+  };
+  std::string text = fmt::format("{} of {} the same", count(Verdict::same), pairs.size());
+  if (const auto different = count(Verdict::different)) text += fmt::format(", {} different", different);
+  if (const auto unreadable = count(Verdict::unreadable)) text += fmt::format(", {} unreadable", unreadable);
+  if (pairs.size() > most_pictures) text += fmt::format("; the first {} can be looked at here", most_pictures);
+  return text;
+}
+
+}  // namespace
+
+void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pairs, const CompareOptions& options) {
+  std::sort(pairs.begin(), pairs.end(), needs_a_look_before);
+  std::string rows;
+  Json pictures = Json::array();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    rows += row_of(pairs[k], k);
+    if (k < most_pictures) pictures.push_back(picture_of(pairs[k]));
+  }
+  const std::string title = fmt::format("{} and {}", options.a.string(), options.b.string());
+  const std::string json = pictures.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string body =
+      fill_template(page_file("compare.html"), {{"title", html_escape(title)},
+                                                {"summary", html_escape(summary(pairs))},
+                                                {"threshold", std::to_string(options.tolerance.what.threshold)},
+                                                {"rows", rows},
+                                                {"pictures", json_for_script(json)}});
+  make_folder(folder);
+  write_file_atomically(folder / "index.html", html_page(title, body, {"compare.js"}));
+}
+
+}  // namespace billow::cli

@@ -1,0 +1,107 @@
+// NAME.tolerance.yaml -> ImageTolerance.
+#include "cli/command/image_tolerance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "cli/yaml/yaml_reader.h"
+
+namespace billow::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Range channel_value{0, 255, false, "of 255"};
+
+const Section& section() {
+  static const Section keys{"the tolerance",
+                            {{"reason"},
+                             {"channel", channel_value},
+                             {"pixels"},
+                             {"worst", channel_value},
+                             {"ignore_alpha"},
+                             {"mask"},
+                             {"metrics"}}};
+  return keys;
+}
+
+const Section& metric_section() {
+  static const Section keys = [] {
+    Section all{"metrics", {}};
+    for (const std::string_view name : all_words<render::Metric>()) all.keys.push_back({name, {0.0, 1e6}});
+    return all;
+  }();
+  return keys;
+}
+
+std::string read_reason(MapReader& map) {
+  const Node& node = map.require("reason", "; say why this picture needs another tolerance");
+  std::string reason = map.text("reason");
+  if (reason.find_first_not_of(" \t\r\n") == std::string::npos)
+    fail_at(node.where, "the reason is empty; say why this picture needs another tolerance");
+  return reason;
+}
+
+void read_pixels_of(MapReader& map, render::Tolerance& tolerance) {
+  const Node* node = map.find("pixels");
+  if (!node) return;
+  tolerance.pixels.reset();
+  const std::string text = read_text(*node, "pixels");
+  if (!read_pixels(text, tolerance))
+    fail_at(node->where, fmt::format("pixels is '{}', and should be a number like 250 or a share like 0.5%", text));
+}
+
+void read_metrics(MapReader& map, render::Tolerance& tolerance) {
+  const Node* node = map.find("metrics");
+  if (!node) return;
+  tolerance.metrics.clear();
+  MapReader metrics = map.map_from(node, "metrics", metric_section());
+  for (const auto& [name, metric] : render::words(render::Metric()))
+    if (metrics.find(name)) tolerance.metrics.push_back({metric, metrics.number(name)});
+  if (tolerance.metrics.empty()) fail_at(node->where, "metrics is empty; give at least one, like {ssim: 0.99}");
+}
+
+}  // namespace
+
+bool read_pixels(const std::string& text, render::Tolerance& tolerance) {
+  const char* const end = text.data() + text.size();
+  double number = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const bool is_share = rest + 1 == end && *rest == '%';
+  const bool is_count = rest == end && number == std::floor(number) && number < 1e15;
+  if (error != std::errc() || !(number >= 0.0) || !(is_share ? number <= 100.0 : is_count)) return false;
+  if (is_share)
+    tolerance.share = number / 100.0;
+  else
+    tolerance.pixels = static_cast<std::int64_t>(number);
+  return true;
+}
+
+ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usual) {
+  fs::path file = baseline;
+  file.replace_extension(".tolerance.yaml");
+  std::error_code error;
+  if (!fs::exists(file, error)) return usual;
+  ImageTolerance tolerance = usual;
+  const NodePtr root = read_yaml_file(file);
+  MapReader map(*root, section(), make_map());
+  tolerance.reason = read_reason(map);
+  tolerance.what.threshold = map.integer("channel", usual.what.threshold);
+  tolerance.allowed.worst = map.integer("worst", usual.allowed.worst);
+  tolerance.what.ignore_alpha = map.boolean("ignore_alpha", usual.what.ignore_alpha);
+  if (map.find("mask")) tolerance.mask = file.parent_path() / map.text("mask");
+  read_pixels_of(map, tolerance.allowed);
+  if (map.find("channel") || map.find("worst") || map.find("pixels")) tolerance.allowed.metrics.clear();
+  read_metrics(map, tolerance.allowed);
+  const auto& metrics = tolerance.allowed.metrics;
+  tolerance.what.flip = std::any_of(metrics.begin(), metrics.end(),
+                                    [](const auto& limit) { return limit.metric == render::Metric::flip; });
+  return tolerance;
+}
+
+}  // namespace billow::cli

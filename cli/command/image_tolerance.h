@@ -1,0 +1,26 @@
+// How two images are compared and when they are the same: by options, and by a file beside a baseline.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "render/image/compare.h"
+
+namespace billow::cli {
+
+struct ImageTolerance {
+  render::ComparisonOptions what;
+  render::Tolerance allowed;
+  std::filesystem::path mask;  // empty: every pixel counts
+  std::string reason;          // why it is not the usual one; empty: it is
+};
+
+/// "250" pixels or "0.5%" of them; false for anything else.
+bool read_pixels(const std::string& text, render::Tolerance& tolerance);
+
+/// `usual`, but for what NAME.tolerance.yaml beside the baseline NAME.png says, if there is one. Throws InputError with
+/// the place of what is wrong in it.
+ImageTolerance tolerance_of(const std::filesystem::path& baseline, const ImageTolerance& usual);
+
+}  // namespace billow::cli
