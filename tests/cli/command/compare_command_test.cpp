@@ -216,9 +216,8 @@ TEST_F(CompareCommand, SaysWhatIsWrongWithATolerance) {
     const std::string why = json["images"][0]["why"];
     return why.substr(why.find("1.tol"));
   };
-  EXPECT_EQ(
-      fault("worst: 20\n"),
-      "1.tolerance.yaml:1:1: the tolerance needs the key 'reason'; say why this picture needs another tolerance");
+  EXPECT_EQ(fault("worst: 20\n"),
+            "1.tolerance.yaml:1:1: the tolerance needs the key 'reason'; say why this picture needs another tolerance");
   EXPECT_EQ(fault("reason: ' '\n"),
             "1.tolerance.yaml:1:9: the reason is empty; say why this picture needs another tolerance");
   EXPECT_EQ(fault("reason: r\npixels: many\n"),
