@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -52,12 +53,14 @@ Json file_uri(const fs::path& file) {
   return stream ? Json(data_uri(bytes)) : Json();
 }
 
-// ꟻLIP's errors as colours.
-Json flip_uri(const ComparedPair& pair) {
+// ꟻLIP's errors as colours; their mean is the pair's where nobody has asked for it before.
+Json flip_uri(ComparedPair& pair) {
   if (!pair.comparison) return {};
+  double sum = 0.0;
   render::PngRows a(pair.a), b(pair.b);
   render::Image map(a.width(), a.height());
   render::Flip flip(map.width, map.height, [&](int y, const Eigen::ArrayXd& errors) {
+    sum += errors.sum();
     for (int x = 0; x < map.width; ++x) {
       const render::Rgb8 colour = render::magnitude_rgb(errors(x));
       std::copy(colour.begin(), colour.end(), map.row(y) + 3 * x);
@@ -69,10 +72,12 @@ Json flip_uri(const ComparedPair& pair) {
     flip.add_row(row_a.data(), a.channels(), row_b.data(), b.channels());
   }
   flip.finish();
+  const double pixels = double(map.width) * map.height;
+  if (pair.comparison->pixels == static_cast<std::int64_t>(pixels)) pair.comparison->flip = sum / pixels;  // no mask
   return data_uri(render::encode_png(map));
 }
 
-Json picture_of(const ComparedPair& pair) {
+Json picture_of(ComparedPair& pair) {
   Json json = {{"name", pair.name},
                {"a", pair.a.string()},
                {"b", pair.b.string()},
@@ -122,8 +127,8 @@ void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pair
   std::string rows;
   Json pictures = Json::array();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    rows += row_of(pairs[k], k);
     if (k < most_pictures) pictures.push_back(picture_of(pairs[k]));
+    rows += row_of(pairs[k], k);
   }
   const std::string title = fmt::format("{} and {}", options.a.string(), options.b.string());
   const std::string json = pictures.dump(-1, ' ', false, Json::error_handler_t::replace);
