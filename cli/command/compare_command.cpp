@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/text/json_text.h"
 #include "render/image/compare.h"
 #include "render/image/png.h"
 
@@ -107,7 +108,7 @@ int compare_command(const CompareOptions& options) {
   if (options.json) {
     Json json = {{"same", all_same}, {"images", Json::array()}};
     for (const Pair& pair : pairs) json["images"].push_back(as_json(pair));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     fmt::print("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10}\n", "image", "max", "mean", "rmse", "psnr dB", "ssim",
                "over 3/255");

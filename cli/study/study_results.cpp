@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/csv.h"
+#include "cli/text/json_text.h"
 #include "cli/text/number_text.h"
 #include "cli/text/version.h"
 
@@ -45,13 +47,6 @@ RunResult parsed(const Json& json) {
   result.scene = json.at("scene").get<std::string>();
   for (const auto& [column, value] : json.at("values").items()) result.values.emplace_back(column, value.get<double>());
   return result;
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 Json values_of(const RunResult& result) {
@@ -139,7 +134,7 @@ fs::path run_folder(const fs::path& folder, const Study& study, const StudyRun& 
 void write_result(const fs::path& run_folder, const RunResult& result) {
   const Json json = {{"status", name(result.status)}, {"hash", result.hash},   {"message", result.message},
                      {"command", result.command},     {"scene", result.scene}, {"values", values_of(result)}};
-  write_file_atomically(run_folder / "result.json", json.dump(1) + "\n");
+  write_file_atomically(run_folder / "result.json", json_text(json, 1) + "\n");
 }
 
 RunResult read_result(const fs::path& run_folder, const std::string& hash) {
@@ -180,7 +175,7 @@ std::string study_json(const Study& study, const std::vector<StudyRun>& runs, co
   for (std::size_t r = 0; r < runs.size(); ++r) json["runs"].push_back(run_json(study, runs[r], results[r]));
   for (const PictureSpec& picture : study.pictures)
     json["pictures"].push_back({{"name", picture.name}, {"title", picture.title}, {"file", picture.name + ".png"}});
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace billow::cli
