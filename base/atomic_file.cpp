@@ -17,7 +17,7 @@ namespace {
 
 std::atomic<bool> durable = false;
 
-// Unique in this process and, with the process's number, on this machine.
+// Of this process on this machine alone; another machine, or a process that was killed, may have left the same.
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
   return target.parent_path() / fmt::format(".{}.{}-{}.part", target.filename().string(), getpid(), counter++);
@@ -33,9 +33,13 @@ void require_file_or_nothing(const std::filesystem::path& target) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), temporary_(temporary_name(target)) {
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
   require_file_or_nothing(target);
-  const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  int descriptor = -1;
+  do {
+    temporary_ = temporary_name(target);
+    descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) fail();
   stream_ = fdopen(descriptor, "wb");
   if (!stream_) {
