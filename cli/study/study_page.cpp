@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_plot(const PictureSpec& picture) {
-  return picture.kind == PictureKind::plot || picture.kind == PictureKind::spectrum_curves;
-}
-
 // Plots as SVG, which stays sharp in print; their data beside them.
 std::string figure(const PictureSpec& picture, bool first) {
   const std::string title = xml_escape(picture.title.empty() ? picture.name : picture.title);
@@ -122,14 +118,14 @@ std::string shortfalls(const StudyContents& contents) {
 
 std::string study_page(const StudyContents& contents) {
   const Study& study = contents.study;
-  std::string body = fmt::format("<header><h1>{}</h1>\n<p class=\"summary\">{}</p></header>\n",
-                                 xml_escape(study.title), xml_escape(study.about));
+  std::string body = fmt::format("<header><h1>{}</h1>\n<p class=\"summary\">{}</p></header>\n", xml_escape(study.title),
+                                 xml_escape(study.about));
   body += shortfalls(contents);
   for (std::size_t p = 0; p < study.pictures.size(); ++p) {
     const auto fault = contents.faults.find(study.pictures[p].name);
     body += fault == contents.faults.end() ? figure(study.pictures[p], p == 0)
-                                           : fmt::format("<p class=\"note bad\">{}: {}</p>\n",
-                                                         xml_escape(fault->first), xml_escape(fault->second));
+                                           : fmt::format("<p class=\"note bad\">{}: {}</p>\n", xml_escape(fault->first),
+                                                         xml_escape(fault->second));
   }
   body += runs_table(contents) + commands(contents);
   return html_page(study.title, body);
