@@ -185,6 +185,8 @@ void add_study(CLI::App& app, Request& r) {
       c.add_option("--only", r.study.only, "Do this run alone")->check(CLI::Range(1, 1000000))->type_name("N");
   CLI::Option* collect = c.add_flag("--collect", r.study.collect, "Assemble the finished runs, without running any");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.study.overwrite, "Run again what is finished");
+  // How a study's own processes are started; no part of the help.
+  c.add_option("--perform", r.study.perform)->check(CLI::Range(1, 1000000))->group("");
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
@@ -300,6 +302,7 @@ int status_of_output(int status) {
 int run(int argc, char** argv) {
   open_standard_streams();
   ignore_write_signals();
+  heed_children();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);

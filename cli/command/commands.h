@@ -54,6 +54,7 @@ struct StudyOptions {
   std::filesystem::path output;  // empty: out/ and the study's name
   bool list = false;             // print the runs and do nothing
   std::optional<int> only;       // this run alone, without assembling
+  std::optional<int> perform;    // this run alone, in this process, which has been started for it
   bool collect = false;          // assemble what is there, without running
   bool overwrite = false;        // run again what is finished
   int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
