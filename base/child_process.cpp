@@ -42,38 +42,43 @@ class MemoryFile {
     lseek(descriptor_, 0, SEEK_SET);
   }
 
-  std::string text(std::size_t most) const {
-    std::string text(most, '\0');
-    const ssize_t size = pread(descriptor_, text.data(), most, 0);
-    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    return text;
-  }
-
-  std::string tail(std::size_t most) const {
+  std::size_t size() const {
     struct stat status = {};
     fstat(descriptor_, &status);
-    const auto length = std::min<off_t>(status.st_size, static_cast<off_t>(most));
-    std::string text(static_cast<std::size_t>(length), '\0');
-    const ssize_t size = pread(descriptor_, text.data(), text.size(), status.st_size - length);
-    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    return text;
+    return static_cast<std::size_t>(status.st_size);
+  }
+
+  std::string head(std::size_t most) const { return piece(0, std::min(size(), most)); }
+  std::string tail(std::size_t most) const {
+    const std::size_t length = std::min(size(), most);
+    return piece(size() - length, length);
   }
 
  private:
+  std::string piece(std::size_t begin, std::size_t length) const {
+    std::string text(length, '\0');
+    std::size_t done = 0;
+    while (done < length) {
+      const ssize_t got = pread(descriptor_, text.data() + done, length - done, static_cast<off_t>(begin + done));
+      if (got <= 0) break;
+      done += static_cast<std::size_t>(got);
+    }
+    text.resize(done);
+    return text;
+  }
+
   int descriptor_;
 };
 
 // The child's process number; 0 when the program does not exist.
-pid_t spawn(const std::vector<std::string>& words, const MemoryFile& input, const MemoryFile* output,
-            const MemoryFile& errors) {
+pid_t spawn(const std::vector<std::string>& words, const std::string& folder, const MemoryFile& input,
+            const MemoryFile& output, const MemoryFile& errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  if (output)
-    posix_spawn_file_actions_adddup2(&actions, output->descriptor(), STDOUT_FILENO);
-  else
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -107,12 +112,12 @@ Ending wait_for(pid_t child, double seconds, const std::function<bool()>& goes_o
 }  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds,
-                          const ProgramWatcher& watcher) {
+                          const ProgramWatcher& watcher, const std::string& folder) {
   constexpr std::size_t most_errors = 64 << 10, most_output = 4 << 10;
   MemoryFile in, out, errors;
   in.fill(input);
   ProgramResult result;
-  const pid_t child = spawn(words, in, watcher ? &out : nullptr, errors);
+  const pid_t child = spawn(words, folder, in, out, errors);
   if (child == 0) {
     result.found = false;
     return result;
@@ -124,7 +129,8 @@ ProgramResult run_program(const std::vector<std::string>& words, const std::stri
   result.timed_out = ending == Ending::time;
   result.stopped = ending == Ending::watcher;
   result.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  result.errors = errors.text(most_errors);
+  result.output = out.head(out.size());
+  result.errors = errors.head(most_errors);
   return result;
 }
 

@@ -13,6 +13,7 @@ struct ProgramResult {
   bool timed_out = false;
   bool stopped = false;  // by its watcher
   int status = 0;        // exit status, or 128 and the signal that ended it
+  std::string output;    // what it wrote to stdout
   std::string errors;    // what it wrote to stderr, at most 64 KiB
 };
 
@@ -21,8 +22,9 @@ struct ProgramResult {
 using ProgramWatcher = std::function<bool(std::string_view output)>;
 
 /// Runs `words[0]`, looked up in PATH, with `input` at its stdin; ends it after `seconds`, which may be infinite, or
-/// when `watcher`, if there is one, says so. Throws std::system_error when no process can be started at all.
+/// when `watcher`, if there is one, says so. It works in `folder`, or here where none is given. Throws
+/// std::system_error when no process can be started at all.
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds,
-                          const ProgramWatcher& watcher = {});
+                          const ProgramWatcher& watcher = {}, const std::string& folder = "");
 
 }  // namespace billow

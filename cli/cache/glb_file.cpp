@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "cli/text/json_text.h"
 #include "render/frame/body_mesh.h"
 #include "render/frame/normals.h"
 #include "render/image/png.h"
@@ -224,7 +225,7 @@ void Document::add(const GlbPart& part, std::size_t index) {
 std::string Document::bytes() {
   pad(binary_, '\0');
   json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-  std::string text = json_.dump();
+  std::string text = json_text(json_);
   pad(text, ' ');
   const std::size_t size = 12 + 8 + text.size() + 8 + binary_.size();
   if (size > std::numeric_limits<std::uint32_t>::max())

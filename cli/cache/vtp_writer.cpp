@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
+#include "base/xml.h"
 #include "cli/cache/bytes.h"
 #include "cli/cache/cache_writer.h"
-#include "cli/page/report_page.h"
 
 namespace billow::cli {
 namespace {
@@ -57,7 +57,7 @@ class VtpWriter : public CacheWriter {
         "<AppendedData encoding=\"raw\">\n_{}\n</AppendedData>\n</VTKFile>\n",
         frame.time, frame.position.rows(), ends_.size(), piece, arrays.bytes());
     write_file_atomically(folder_ / name, text);
-    collection_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, html_escape(name));
+    collection_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, xml_escape(name));
   }
 
   void finish() override {

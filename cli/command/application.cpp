@@ -216,6 +216,7 @@ void add_compare(CLI::App& app, Request& r) {
       ->type_name("FILE");
   c.add_flag("--ignore-alpha", r.compare.tolerance.what.ignore_alpha, "Compare colours only");
   c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")->type_name("DIR");
+  c.add_option("--junit", r.compare.junit, "Write the pairs as test cases of JUnit's XML")->type_name("FILE");
   CLI::Option* accept =
       c.add_option("--accept", r.compare.accept_only,
                    "Copy what differs or is new from B to A: all, or these names (not where CI is set)")
@@ -240,6 +241,8 @@ void add_study(CLI::App& app, Request& r) {
       c.add_option("--only", r.study.only, "Do this run alone")->check(CLI::Range(1, 1000000))->type_name("N");
   CLI::Option* collect = c.add_flag("--collect", r.study.collect, "Assemble the finished runs, without running any");
   CLI::Option* overwrite = c.add_flag("--overwrite", r.study.overwrite, "Run again what is finished");
+  // How a study's own processes are started; no part of the help.
+  c.add_option("--perform", r.study.perform)->check(CLI::Range(1, 1000000))->group("");
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
@@ -358,6 +361,7 @@ int run(int argc, char** argv) {
   open_standard_streams();
   ignore_write_signals();
   tidy_up_on_signals();
+  heed_children();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);

@@ -47,6 +47,7 @@ struct CompareOptions {
   std::filesystem::path a, b;
   std::filesystem::path difference;  // empty: none written
   std::filesystem::path report;      // folder of the page; empty: none written
+  std::filesystem::path junit;       // JUnit's XML; empty: none written
   ImageTolerance tolerance;
   bool accept = false;                   // copy from B to A what differs or is new
   std::vector<std::string> accept_only;  // of these names; empty: all
@@ -59,6 +60,7 @@ struct StudyOptions {
   std::filesystem::path output;  // empty: out/ and the study's name
   bool list = false;             // print the runs and do nothing
   std::optional<int> only;       // this run alone, without assembling
+  std::optional<int> perform;    // this run alone, in this process, which has been started for it
   bool collect = false;          // assemble what is there, without running
   bool overwrite = false;        // run again what is finished
   int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed

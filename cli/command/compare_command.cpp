@@ -10,6 +10,7 @@
 #include "cli/command/commands.h"
 #include "cli/command/compare_report.h"
 #include "cli/command/compared_images.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 
@@ -72,11 +73,12 @@ int compare_command(const CompareOptions& options) {
   const auto all = [&](Verdict verdict) {
     return std::all_of(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
   };
+  if (!options.junit.empty()) write_junit(options.junit, pairs, options);
   if (!options.report.empty()) write_compare_report(options.report, pairs, options);
   if (options.json) {
     Json json = {{"same", all(Verdict::same)}, {"accepted", accepted}, {"images", Json::array()}};
     for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     print_table(pairs, options);
     for (const std::string& name : accepted) fmt::print("accepted {}\n", name);

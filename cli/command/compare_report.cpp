@@ -13,10 +13,12 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/xml.h"
 #include "cli/cache/base64.h"
 #include "cli/page/page_file.h"
 #include "cli/page/report_page.h"
 #include "cli/run/output_folder.h"
+#include "cli/text/json_text.h"
 #include "render/image/colour_map.h"
 #include "render/image/flip.h"
 #include "render/image/png.h"
@@ -100,13 +102,13 @@ std::string numbers(const ComparedPair& pair) {
 
 std::string row_of(const ComparedPair& pair, std::size_t number) {
   const bool shown = number < most_pictures;
-  const std::string name = html_escape(pair.name);
+  const std::string name = xml_escape(pair.name);
   const std::string reason = pair.reason.empty() ? "" : fmt::format("; its own tolerance: {}", pair.reason);
   return fmt::format("<tr{}{}><td>{}</td><td>{}</td>{}<td>{}</td></tr>\n",
                      shown ? fmt::format(" data-picture=\"{}\"", number) : "",
                      pair.verdict == Verdict::same ? "" : " class=\"bad\"",
                      shown ? fmt::format("<button type=\"button\">{}</button>", name) : name, name_of(pair.verdict),
-                     numbers(pair), html_escape(pair.why + reason));
+                     numbers(pair), xml_escape(pair.why + reason));
 }
 
 std::string summary(const std::vector<ComparedPair>& pairs) {
@@ -131,10 +133,10 @@ void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pair
     rows += row_of(pairs[k], k);
   }
   const std::string title = fmt::format("{} and {}", options.a.string(), options.b.string());
-  const std::string json = pictures.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string json = json_text(pictures);
   const std::string body =
-      fill_template(page_file("compare.html"), {{"title", html_escape(title)},
-                                                {"summary", html_escape(summary(pairs))},
+      fill_template(page_file("compare.html"), {{"title", xml_escape(title)},
+                                                {"summary", xml_escape(summary(pairs))},
                                                 {"threshold", std::to_string(options.tolerance.what.threshold)},
                                                 {"rows", rows},
                                                 {"pictures", json_for_script(json)}});

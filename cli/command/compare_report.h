@@ -1,4 +1,4 @@
-// The page of a comparison.
+// A comparison for those who look at it elsewhere: a page, and a file for servers that run tests.
 #pragma once
 
 #include <filesystem>
@@ -12,5 +12,10 @@ namespace billow::cli {
 /// page, so that it can be sent as it is. Throws OutputError.
 void write_compare_report(const std::filesystem::path& folder, std::vector<ComparedPair> pairs,
                           const CompareOptions& options);
+
+/// Writes the pairs as test cases of JUnit's XML, which build servers read: those that differ failed, those that cannot
+/// be read are errors. Throws OutputError.
+void write_junit(const std::filesystem::path& file, const std::vector<ComparedPair>& pairs,
+                 const CompareOptions& options);
 
 }  // namespace billow::cli

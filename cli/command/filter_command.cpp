@@ -11,6 +11,7 @@
 #include "cli/run/watched_scene.h"
 #include "cli/scene/filter_text.h"
 #include "cli/scene/simulation.h"
+#include "cli/text/json_text.h"
 #include "render/paper/plot.h"
 #include "sim/filter/response.h"
 
@@ -145,7 +146,7 @@ int filter_command(const FilterCommandOptions& options) {
   progress.phase("responses");
   const std::vector<Response> list = responses(scene, simulation, body);
   progress.end();
-  if (options.scene.json) return fmt::print("{}\n", as_json(simulation, list).dump(1)), exit_done;
+  if (options.scene.json) return fmt::print("{}\n", json_text(as_json(simulation, list), 1)), exit_done;
   for (const std::string& line : level_lines(simulation)) fmt::print("{}\n", line);
   print_table(list);
   const std::filesystem::path folder =

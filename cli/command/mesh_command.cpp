@@ -6,6 +6,7 @@
 
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/text/json_text.h"
 #include "sim/import/mesh_import.h"
 #include "sim/mesh/mesh_report.h"
 
@@ -157,7 +158,7 @@ int mesh_command(const MeshOptions& options) {
   const sim::Mesh mesh = sim::import_mesh(options.mesh);
   const sim::MeshReport report = sim::report_of(mesh);
   if (options.json) {
-    fmt::print("{}\n", as_json(mesh, report).dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(as_json(mesh, report), 2));
     return exit_done;
   }
   fmt::print("{}: {} vertices, {} faces ({} triangles, {} quads)\n", options.mesh.string(), report.vertices,

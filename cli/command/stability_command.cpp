@@ -9,6 +9,7 @@
 #include "cli/run/measured_run.h"
 #include "cli/run/watched_scene.h"
 #include "cli/scene/simulation.h"
+#include "cli/text/json_text.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
@@ -220,7 +221,7 @@ int stability_command(const StabilityOptions& options) {
   }
   progress.end();
   if (options.scene.json)
-    fmt::print("{}\n", as_json(subject, rows).dump(2));
+    fmt::print("{}\n", json_text(as_json(subject, rows), 2));
   else
     print_table(subject, rows);
   return exit_done;

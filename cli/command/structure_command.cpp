@@ -5,6 +5,7 @@
 
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 
@@ -53,7 +54,7 @@ void print_summary(const sim::Structure& s) {
 int structure_command(const SceneOptions& options) {
   const sim::Structure structure = build_structure(read_scene(options.scene, options.overrides));
   if (options.json)
-    fmt::print("{}\n", as_json(structure).dump());
+    fmt::print("{}\n", json_text(as_json(structure)));
   else
     print_summary(structure);
   return exit_done;

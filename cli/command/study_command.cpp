@@ -2,22 +2,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 #include <thread>
 
 #include "base/atomic_file.h"
+#include "base/claim.h"
 #include "base/error.h"
+#include "base/folder_lock.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/output_folder.h"
-#include "cli/study/study.h"
-#include "cli/study/study_jobs.h"
 #include "cli/study/study_page.h"
 #include "cli/study/study_pictures.h"
-#include "cli/study/study_results.h"
+#include "cli/study/study_plan.h"
 #include "cli/study/study_run.h"
+#include "cli/study/study_work.h"
 
 namespace billow::cli {
 
@@ -25,39 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A study with its runs, and what each of them must be to count.
-struct Plan {
-  Study study;
-  fs::path folder;
-  std::vector<StudyRun> runs;
-  std::vector<std::string> hash;  // per run
-
-  fs::path folder_of(const StudyRun& run) const { return run_folder(folder, study, run); }
-  fs::path log_of(int number) const { return folder_of(runs[number - 1]) / "log.txt"; }
-  RunResult result_of(const StudyRun& run) const { return read_result(folder_of(run), hash[run.number - 1]); }
-};
-
-Plan make_plan(const StudyOptions& options) {
-  Plan plan{read_study(options.study), options.output, {}, {}};
-  if (plan.folder.empty()) plan.folder = fs::path("out") / options.study.stem();
-  plan.runs = runs_of(plan.study);
-  return plan;
-}
-
-// Reads every run's scene, so that a fault in the last one is found before the first one starts.
-void find_hashes(Plan& plan) {
-  for (const StudyRun& run : plan.runs)
-    plan.hash.push_back(run_hash(plan.study, read_scene(plan.study.scene, overrides_of(plan.study, run))));
-}
-
-bool is_finished(const RunResult& result) {
-  return result.status == RunStatus::done || result.status == RunStatus::diverged;
-}
-
-const StudyRun& run_numbered(const Plan& plan, int number) {
+void check_number(const StudyPlan& plan, const char* option, int number) {
   if (number > static_cast<int>(plan.runs.size()))
-    throw InputError(fmt::format("--only {}: the study has runs 1 to {}", number, plan.runs.size()));
-  return plan.runs[number - 1];
+    throw InputError(fmt::format("{} {}: the study has runs 1 to {}", option, number, plan.runs.size()));
 }
 
 // A folder with other things in it is not written to.
@@ -67,120 +37,125 @@ void check_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, error))
     throw OutputError(fmt::format("{} is not a folder; choose another with -o", folder.string()));
   const bool empty = fs::directory_iterator(folder, error) == fs::directory_iterator();
-  if (!empty && !fs::exists(folder / "study.json", error) && !fs::is_directory(folder / "runs", error))
+  if (!empty && !fs::exists(folder / study_files::record, error) && !fs::is_directory(folder / "runs", error))
     throw OutputError(
         fmt::format("{} already holds files that are not a study's; choose another folder with -o", folder.string()));
 }
 
-std::vector<RunResult> results_of(const Plan& plan) {
+// The folder of the runs comes first: it marks the folder as a study's, also for another process that begins now.
+void make_folders(const StudyPlan& plan) {
+  check_folder(plan.folder);
+  make_folder(plan.folder / "runs");
+  remove_strays(plan.folder);
+}
+
+std::vector<RunResult> results_of(const StudyPlan& plan) {
   std::vector<RunResult> results;
-  for (const StudyRun& run : plan.runs) results.push_back(plan.result_of(run));
+  for (const StudyRun& run : plan.runs) results.push_back(plan.result_of(run.number));
   return results;
 }
 
-int list_runs(const Plan& plan) {
-  for (const StudyRun& run : plan.runs)
-    fmt::print("{:>4}  {:<9} {}\n", run.number, name(plan.result_of(run).status), label_of(plan.study, run));
+int list_runs(const StudyPlan& plan) {
+  for (const StudyRun& run : plan.runs) {
+    const bool running = claim_holder(plan.claim_of(run.number)).has_value();
+    const std::string_view status = running ? "running" : name(plan.result_of(run.number).status);
+    fmt::print("{:>4}  {:<9} {}\n", run.number, status, label_of(plan.study, run));
+  }
   return exit_done;
 }
 
-int do_one(const Plan& plan, int number) {
-  const StudyRun& run = run_numbered(plan, number);
-  check_folder(plan.folder);
+// In a process of its own, which run_jobs has started.
+int perform(const StudyPlan& plan, int number) {
   catch_interrupts();
-  make_folder(plan.folder_of(run));
-  const RunResult result = perform_run(plan.study, run, plan.folder_of(run));
+  const RunResult result = perform_run(plan.study, plan.run(number), plan.folder_of(number));
   if (interrupted_by() != 0) return 128 + interrupted_by();
-  fmt::print(stderr, "run {}, {}: {}{}\n", number, label_of(plan.study, run), name(result.status),
+  fmt::print(stderr, "{}: {}{}\n", plan.name_of(number), name(result.status),
              result.message.empty() ? "" : "; " + result.message);
   return exit_done;
 }
 
-// The last line that a run left in its log: what it died of.
-std::string last_words(const fs::path& log) {
-  std::ifstream file(log);
-  std::string line, last = "it left no message";
-  while (std::getline(file, line))
-    if (!line.empty()) last = line;
-  return last;
+int do_one(const StudyPlan& plan, int number) {
+  do_runs(plan, {{number, result_stamp(plan.folder_of(number))}}, 1);
+  if (interrupted_by() != 0) return 128 + interrupted_by();
+  const RunResult result = plan.result_of(number);
+  if (!result.message.empty()) fmt::print(stderr, "{}\n", result.message);
+  return is_finished(result) ? exit_done : exit_internal_fault;
 }
 
-std::vector<int> unfinished(const Plan& plan, bool all) {
-  std::vector<int> numbers;
-  for (const StudyRun& run : plan.runs)
-    if (all || !is_finished(plan.result_of(run))) numbers.push_back(run.number);
-  return numbers;
+std::vector<DueRun> due_runs(const StudyPlan& plan, bool all) {
+  std::vector<DueRun> due;
+  for (const StudyRun& run : plan.runs) {
+    // Another process may write the result now: the stamp must not be younger than what is looked at.
+    const ResultStamp before = result_stamp(plan.folder_of(run.number));
+    const RunResult result = plan.result_of(run.number);
+    if (result.status == RunStatus::missing && !result.message.empty())
+      fmt::print(stderr, "warning: {}: {}; it is done again\n", plan.name_of(run.number), result.message);
+    if (all || !is_finished(result)) due.push_back({run.number, before});
+  }
+  return due;
 }
 
-// A run without a result of its own has failed; that is written down for --collect.
-void settle(const Plan& plan, const JobEnd& end) {
-  const StudyRun& run = plan.runs[end.number - 1];
-  if (end.status == 0 || interrupted_by() != 0) return;
-  RunResult result;
-  result.status = RunStatus::failed;
-  result.hash = plan.hash[end.number - 1];
-  result.command = command_of(plan.study, run);
-  result.message = fmt::format("exit status {}: {}", end.status, last_words(plan.log_of(end.number)));
-  write_result(plan.folder_of(run), result);
-}
-
-void run_missing(const Plan& plan, const StudyOptions& options) {
-  const std::vector<int> numbers = unfinished(plan, options.overwrite);
+void run_missing(const StudyPlan& plan, const StudyOptions& options) {
+  const std::vector<DueRun> due = due_runs(plan, options.overwrite);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = options.jobs > 0 ? options.jobs : plan.study.measures.repeats > 0 ? 1 : cores;
-  for (const int number : numbers) {
-    make_folder(plan.folder_of(plan.runs[number - 1]));
-    std::error_code error;
-    fs::remove(plan.folder_of(plan.runs[number - 1]) / "result.json", error);
-  }
   fmt::print(stderr, "{}: {} runs, {} of them finished already\n", plan.study.file.string(), plan.runs.size(),
-             plan.runs.size() - numbers.size());
-  std::size_t ended = 0;
-  run_jobs(
-      plan.study.file, plan.folder, numbers, jobs, [&](int number) { return plan.log_of(number); },
-      [&](const JobEnd& end) {
-        settle(plan, end);
-        const StudyRun& run = plan.runs[end.number - 1];
-        fmt::print(stderr, "[{}/{}] run {}, {}: {} in {:.1f} s\n", ++ended, numbers.size(), end.number,
-                   label_of(plan.study, run), name(plan.result_of(run).status), end.seconds);
-      });
+             plan.runs.size() - due.size());
+  do_runs(plan, due, jobs);
 }
 
-int assemble(const Plan& plan) {
+// Says which runs lack, the first few by name; their number.
+std::size_t report_shortfalls(const StudyPlan& plan, const std::vector<RunResult>& results) {
+  constexpr std::size_t most_named = 5;
+  std::size_t lacking = 0;
+  for (const StudyRun& run : plan.runs) {
+    const RunResult& result = results[static_cast<std::size_t>(run.number) - 1];
+    if (is_finished(result) || ++lacking > most_named) continue;
+    fmt::print(stderr, "{}: {}{}\n", plan.name_of(run.number), name(result.status),
+               result.message.empty() ? "" : "; " + result.message);
+  }
+  return lacking;
+}
+
+// By one process at a time, so that all files are of the same results; who comes last has them all.
+int assemble(const StudyPlan& plan) {
+  const FolderLock lock(plan.folder);
   const std::vector<RunResult> results = results_of(plan);
   StudyContents contents{plan.study, plan.folder, plan.runs, results, {}};
   contents.faults = make_pictures(contents);
   for (const auto& [picture, fault] : contents.faults)
     fmt::print(stderr, "warning: the picture '{}' is missing: {}\n", picture, fault);
-  write_file_atomically(plan.folder / "results.csv", results_csv(plan.study, plan.runs, results));
-  write_file_atomically(plan.folder / "study.json", study_json(plan.study, plan.runs, results));
-  write_file_atomically(plan.folder / "index.html", study_page(contents));
-  const auto failed = std::count_if(results.begin(), results.end(), [](const RunResult& r) {
-    return r.status == RunStatus::failed || r.status == RunStatus::missing;
-  });
+  write_file_atomically(plan.folder / study_files::table, results_csv(plan.study, plan.runs, results));
+  write_file_atomically(plan.folder / study_files::record, study_json(plan.study, plan.runs, results));
+  write_file_atomically(plan.folder / study_files::page, study_page(contents));
+  const std::size_t lacking = report_shortfalls(plan, results);
   fmt::print(stderr, "wrote {} pictures, results.csv, study.json and index.html to {}{}\n",
              plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
-             failed ? fmt::format("; {} runs are missing or failed", failed) : "");
-  return failed || !contents.faults.empty() ? exit_internal_fault : exit_done;
+             lacking ? fmt::format("; {} runs are missing or failed", lacking) : "");
+  return lacking || !contents.faults.empty() ? exit_internal_fault : exit_done;
 }
 
 }  // namespace
 
 int study_command(const StudyOptions& options) {
-  Plan plan = make_plan(options);
-  if (options.only) return do_one(plan, *options.only);
-  find_hashes(plan);
-  if (options.list) return list_runs(plan);
-  check_folder(plan.folder);
-  catch_interrupts();
-  make_folder(plan.folder);
-  if (!options.collect) {
-    // Marks the folder as a study's, should this be cut short.
-    write_file_atomically(plan.folder / "study.json", study_json(plan.study, plan.runs, results_of(plan)));
-    run_missing(plan, options);
-    if (interrupted_by() != 0) return 128 + interrupted_by();
+  StudyPlan plan = make_plan(options.study, options.output);
+  if (options.perform) {
+    check_number(plan, "--perform", *options.perform);
+    return perform(plan, *options.perform);
   }
-  return assemble(plan);
+  if (options.only) {
+    check_number(plan, "--only", *options.only);
+    read_hash(plan, *options.only);
+  } else {
+    // A fault in the last run's scene is found before the first one starts.
+    for (const StudyRun& run : plan.runs) read_hash(plan, run.number);
+  }
+  if (options.list) return list_runs(plan);
+  catch_interrupts();
+  make_folders(plan);
+  if (options.only) return do_one(plan, *options.only);
+  if (!options.collect) run_missing(plan, options);
+  return interrupted_by() != 0 ? 128 + interrupted_by() : assemble(plan);
 }
 
 }  // namespace billow::cli

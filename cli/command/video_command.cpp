@@ -61,22 +61,16 @@ const FilmFormat& format_of(const fs::path& file) {
   throw InputError(fmt::format("-o {}: a film's name ends in {}", file.string(), fmt::join(known, ", ")));
 }
 
-// A file, for ffmpeg: without the word a colon in its name would make it an address.
+// A file, for ffmpeg: without the word a colon in its name would make it an address. Ffmpeg works in the run's folder.
 std::string named(const fs::path& file) { return "file:" + file.string(); }
 
-// A word of a list of files for ffmpeg's concat demuxer.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
-// Every file of the film, one view after the other within a frame.
+// Every file of the film, one view after the other within a frame. From within the run's folder, where a frame's name
+// is plain: ffmpeg's lists have no way to write some that the folder itself may have.
 std::string list_of_files(const FinishedRun& run, const std::vector<render::View>& views) {
   std::string list = "ffconcat version 1.0\n";
   for (const auto& [frame, time] : run.frames)
     for (const render::View view : views)
-      list += "file " + quoted(named(fs::absolute(frame_file(run, view, frame)))) + "\n";
+      list += "file " + named(frame_file(run, view, frame).lexically_relative(run.folder)) + "\n";
   return list;
 }
 
@@ -100,7 +94,8 @@ class FilmMaker {
  public:
   FilmMaker(const FinishedRun& run, const std::vector<render::View>& views, double fps, const fs::path& file,
             Progress& progress)
-      : file_(file),
+      : folder_(run.folder),
+        file_(file),
         list_(list_of_files(run, views)),
         frames_(static_cast<long>(run.frames.size())),
         fps_(fps),
@@ -123,10 +118,10 @@ class FilmMaker {
     if (!format.paletted) return encode(format, {"-vf", side_by_side_ + std::string(format.filter)}, temporary);
     const AtomicFile palette(file_.string() + ".palette");  // never commited: it vanishes with this function
     if (!ffmpeg("palette", {"-vf", side_by_side_ + "palettegen", "-f", "image2", "-c:v", "png", "-update", "1",
-                            named(palette.temporary())}))
+                            named(fs::absolute(palette.temporary()))}))
       return false;
     return encode(format,
-                  {"-f", "png_pipe", "-i", named(palette.temporary()), "-lavfi",
+                  {"-f", "png_pipe", "-i", named(fs::absolute(palette.temporary())), "-lavfi",
                    "[0:v]" + side_by_side_ + "null[film];[film][1:v]paletteuse=diff_mode=rectangle"},
                   temporary);
   }
@@ -134,7 +129,7 @@ class FilmMaker {
  private:
   bool encode(const FilmFormat& format, Arguments words, const fs::path& temporary) {
     words.insert(words.end(), format.encoding.begin(), format.encoding.end());
-    words.insert(words.end(), {"-f", std::string(format.muxer), named(temporary)});
+    words.insert(words.end(), {"-f", std::string(format.muxer), named(fs::absolute(temporary))});
     return ffmpeg("film", words);
   }
 
@@ -148,10 +143,13 @@ class FilmMaker {
     all.insert(all.end(), exact.begin(), exact.end());
     all.push_back(words.back());
     progress_.begin(stage, frames_);
-    const ProgramResult result = run_program(all, list_, std::numeric_limits<double>::infinity(), [&](auto output) {
-      if (const long done = frames_in(output); done > 0) progress_.update(done, static_cast<double>(done) / fps_);
-      return interrupted_by() == 0;
-    });
+    const ProgramResult result = run_program(
+        all, list_, std::numeric_limits<double>::infinity(),
+        [&](auto output) {
+          if (const long done = frames_in(output); done > 0) progress_.update(done, static_cast<double>(done) / fps_);
+          return interrupted_by() == 0;
+        },
+        folder_);
     progress_.end();
     if (interrupted_by() != 0) return false;
     if (!result.found || result.status != 0 || !result.errors.empty())
@@ -159,7 +157,7 @@ class FilmMaker {
     return true;
   }
 
-  fs::path file_;
+  fs::path folder_, file_;
   std::string list_;
   long frames_;
   double fps_;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/page/report_page.h"
+#include "base/xml.h"
 
 namespace billow::cli {
 
@@ -92,7 +92,7 @@ std::string key(const PlotLine& line) {
   return fmt::format(
       "<span class=\"key\"><svg viewBox=\"0 0 24 10\" aria-hidden=\"true\"><path class=\"line line-{}\" "
       "d=\"M0 5H24\"/></svg>{} <output></output></span>",
-      line.colour, html_escape(line.name));
+      line.colour, xml_escape(line.name));
 }
 
 }  // namespace
@@ -153,9 +153,9 @@ std::string line_plot(const LinePlot& plot) {
       "<div class=\"lane\"><div class=\"y-ticks\" aria-hidden=\"true\">{}</div><div class=\"axes seek\">"
       "<svg viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"{} over time\">\n{}{}</svg>"
       "<i class=\"cursor\"></i></div>\n<div class=\"ticks\" aria-hidden=\"true\">{}</div></div>\n</figure>\n",
-      axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", html_escape(plot.title),
-      html_escape(unit_text(plot.unit, axis.exponent)), keys, value_labels(axis), plot_width, plot_height,
-      html_escape(plot.title), grid(plot, axis), lines,
+      axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", xml_escape(plot.title),
+      xml_escape(unit_text(plot.unit, axis.exponent)), keys, value_labels(axis), plot_width, plot_height,
+      xml_escape(plot.title), grid(plot, axis), lines,
       time_labels(time_ticks(plot.begin, plot.end), plot.begin, plot.end));
 }
 

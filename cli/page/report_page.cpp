@@ -5,36 +5,11 @@
 
 #include <stdexcept>
 
+#include "base/xml.h"
 #include "cli/page/page_file.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
-
-std::string html_escape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string json_for_script(std::string_view json) {
   std::string escaped;
@@ -59,7 +34,7 @@ std::string fill_template(std::string_view text, const std::map<std::string, std
 std::string html_page(std::string_view title, std::string_view body, const std::vector<std::string_view>& scripts) {
   std::string inlined;
   for (const std::string_view script : scripts) inlined += fmt::format("<script>\n{}</script>\n", page_file(script));
-  return fill_template(page_file("page.html"), {{"title", html_escape(title)},
+  return fill_template(page_file("page.html"), {{"title", xml_escape(title)},
                                                 {"version", std::string(version())},
                                                 {"style", std::string(page_file("page.css"))},
                                                 {"body", std::string(body)},

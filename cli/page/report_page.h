@@ -8,9 +8,6 @@
 
 namespace billow::cli {
 
-/// `text` as HTML shows it, within an element or a quoted attribute: & < > " ' are escaped.
-std::string html_escape(std::string_view text);
-
 /// JSON that can stand within <script>: every < is escaped, so that neither </script> nor <!-- ends or opens anything.
 std::string json_for_script(std::string_view json);
 

@@ -5,12 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "base/suggest.h"
 #include "cli/run/output_folder.h"
 
@@ -27,10 +27,13 @@ std::optional<render::View> view_named(std::string_view name) {
   return std::nullopt;
 }
 
+constexpr std::uintmax_t max_record_bytes = 1 << 30;  // of a million frames it has a third of that
+
 std::string record_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::error_code error;
+  if (!fs::exists(file, error))
+    throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
+  return read_regular_file(file, max_record_bytes, "; this is no record of a run");
 }
 
 FinishedRun run_of(const fs::path& folder, const Json& record) {

@@ -42,6 +42,8 @@ void ignore_write_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void heed_children() { std::signal(SIGCHLD, SIG_DFL); }
+
 int interrupted_by() { return pending_signal; }
 
 }  // namespace billow::cli

@@ -1,5 +1,5 @@
 // SIGINT, SIGTERM and SIGHUP as a request to finish, and the end without delay; broken pipes and file-size limits as
-// ordinary write errors.
+// ordinary write errors; children that end.
 #pragma once
 
 namespace billow::cli {
@@ -14,6 +14,9 @@ void catch_interrupts();
 
 /// A closed pipe or a file-size limit from here on is an error of the write that meets it, not the end of the process.
 void ignore_write_signals();
+
+/// From here on the ends of children can be waited for, also where this process was started with their signal ignored.
+void heed_children();
 
 /// The signal that asked for the end, or 0.
 int interrupted_by();

@@ -10,14 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/announcement.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 
 namespace {
 
 constexpr double long_phase = 0.5;  // [s] a phase that lasts longer is said
-// A file may have any name.
-constexpr auto replace_invalid = nlohmann::json::error_handler_t::replace;
 constexpr const char* wiped = "\r\033[K";
 
 double seconds_of(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -46,8 +45,7 @@ void Progress::phase(std::string_view name, std::string_view subject) {
 }
 
 std::string Progress::announcement(std::string_view name, std::string_view subject) const {
-  if (style_ == ProgressStyle::json)
-    return nlohmann::json{{"phase", name}, {"subject", subject}}.dump(-1, ' ', false, replace_invalid) + "\n";
+  if (style_ == ProgressStyle::json) return json_text(nlohmann::json{{"phase", name}, {"subject", subject}}) + "\n";
   const std::string on = subject.empty() ? "" : fmt::format(" {}", subject);
   return redraw_ ? fmt::format("{}{}{} ...", wiped, name, on) : fmt::format("{}{} ...\n", name, on);
 }
@@ -87,9 +85,12 @@ void Progress::print_line(long done, double time) {
   const double left = rate > 0.0 ? static_cast<double>(total_ - done) / rate : 0.0;
   std::string line;
   if (style_ == ProgressStyle::json)
-    line = nlohmann::json{{"stage", stage_}, {"done", done}, {"total", total_},
-                          {"time", time},    {"rate", rate}, {"seconds_left", left}}
-               .dump() +
+    line = json_text(nlohmann::json{{"stage", stage_},
+                                    {"done", done},
+                                    {"total", total_},
+                                    {"time", time},
+                                    {"rate", rate},
+                                    {"seconds_left", left}}) +
            "\n";
   else
     line = fmt::format("{}{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left{}", redraw_ ? wiped : "", stage_,
@@ -100,7 +101,7 @@ void Progress::print_line(long done, double time) {
 
 void Progress::say(const std::string& line) {
   end();
-  const std::string text = style_ == ProgressStyle::json ? nlohmann::json{{"message", line}}.dump() : line;
+  const std::string text = style_ == ProgressStyle::json ? json_text(nlohmann::json{{"message", line}}) : line;
   std::fputs((text + "\n").c_str(), stderr);
   std::fflush(stderr);
 }

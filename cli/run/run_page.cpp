@@ -7,8 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/xml.h"
 #include "cli/page/page_file.h"
 #include "cli/page/report_page.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 
@@ -44,7 +46,7 @@ int clock_decimals(const RunPage& page) { return page.fps > 100.0 ? 4 : 2; }
 std::string notes(const RunPage& page) {
   std::string html;
   for (const PageNote& note : page.notes)
-    html += fmt::format("<p class=\"note {}\">{}</p>\n", note.bad ? "bad" : "warn", html_escape(note.text));
+    html += fmt::format("<p class=\"note {}\">{}</p>\n", note.bad ? "bad" : "warn", xml_escape(note.text));
   return html;
 }
 
@@ -54,7 +56,7 @@ std::string views(const RunPage& page, long frame) {
     html += fmt::format(
         "<figure class=\"view\"><img src=\"{0}/frame_{1:04}.png\" width=\"{2}\" height=\"{3}\" decoding=\"sync\" "
         "alt=\"{0}, frame {1}\"><figcaption>{0}</figcaption></figure>\n",
-        html_escape(view), frame, page.width, page.height);
+        xml_escape(view), frame, page.width, page.height);
   return html;
 }
 
@@ -125,13 +127,13 @@ std::string player(const RunPage& page) {
                         {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start,
                                               page.series.last_frame())},
                         {"plots", plots(page, axis)},
-                        {"data", json_for_script(data.dump())}});
+                        {"data", json_for_script(json_text(data))}});
 }
 
 std::string viewer(const RunPage& page) {
   if (page.glb.empty()) return "";
   return fill_template(page_file("viewer.html"),
-                       {{"glb", html_escape(page.glb)}, {"script", html_escape(page.glb_script)}});
+                       {{"glb", xml_escape(page.glb)}, {"script", xml_escape(page.glb_script)}});
 }
 
 // One pixel a cell: enlarged without smoothing.
@@ -149,7 +151,7 @@ std::string spectrum(const RunPage& page) {
 std::string facts(const RunPage& page) {
   std::string html;
   for (const auto& [name, value] : page.facts)
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escape(name), html_escape(value));
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", xml_escape(name), xml_escape(value));
   return html;
 }
 
@@ -164,15 +166,15 @@ std::string files(const RunPage& page) {
 }  // namespace
 
 std::string run_page_html(const RunPage& page) {
-  const std::string body = fill_template(page_file("run.html"), {{"title", html_escape(page.title)},
-                                                                 {"summary", html_escape(page.summary)},
+  const std::string body = fill_template(page_file("run.html"), {{"title", xml_escape(page.title)},
+                                                                 {"summary", xml_escape(page.summary)},
                                                                  {"notes", notes(page)},
                                                                  {"player", player(page)},
                                                                  {"viewer", viewer(page)},
                                                                  {"spectrum", spectrum(page)},
                                                                  {"facts", facts(page)},
-                                                                 {"command", html_escape(page.command)},
-                                                                 {"scene", html_escape(page.scene)},
+                                                                 {"command", xml_escape(page.command)},
+                                                                 {"scene", xml_escape(page.scene)},
                                                                  {"files", files(page)}});
   std::vector<std::string_view> scripts{"run.js"};
   if (!page.glb.empty()) scripts.insert(scripts.begin(), "viewer.js");  // it hears of the first frame that run.js shows

@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "cli/run/incident_text.h"
 #include "cli/scene/filter_text.h"
+#include "cli/text/json_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -166,7 +167,7 @@ Json begun_record(const Run& run, const Json& bounds) {
 RunningRecord::RunningRecord(std::filesystem::path file, Json begun)
     : file_(std::move(file)), begun_(std::move(begun)) {
   const std::string room = in_quotes(interrupted);
-  std::string text = begun_.dump(2) + "\n";
+  std::string text = json_text(begun_, 2) + "\n";
   const std::size_t place = text.find(in_quotes(running));
   text.replace(place, in_quotes(running).size(), padded(running, room.size()));
   write_file_atomically(file_, text);
@@ -177,7 +178,7 @@ void RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
   try {
     begun_["status"] = how == SuddenEnd::failure ? failed : interrupted;
     if (!reason.empty()) begun_["error"] = reason;
-    write_file_atomically(file_, begun_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_file_atomically(file_, json_text(begun_, 2) + "\n");
   } catch (const std::exception&) {  // a full disk has no room for a second file
     mark(how);
   }
@@ -222,12 +223,12 @@ void write_finished_record(const std::filesystem::path& file, const Run& run, co
                            const FilmReport& report, const Progress& progress,
                            const nlohmann::ordered_json& inherited) {
   AtomicFile output(file);
-  const std::string head = finished(run, survey, report, progress, inherited).dump(1);
+  const std::string head = json_text(finished(run, survey, report, progress, inherited), 1);
   output.append(std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
   output.append(",\n \"frames\": [");
   const char* separator = "\n  ";
   for (const FrameRecord& frame : report.frames) {
-    output.append(separator + frame_record(frame).dump());
+    output.append(separator + json_text(frame_record(frame)));
     separator = ",\n  ";
   }
   output.append("\n ]\n}\n");

@@ -1,6 +1,7 @@
 // bodies: in a scene: what every body has, whatever its kind.
 #include <fmt/format.h>
 
+#include "base/xml.h"
 #include "cli/scene/scene_keys.h"
 #include "cli/scene/scene_parts.h"
 #include "cli/yaml/colour_text.h"
@@ -38,6 +39,9 @@ void check_name(const std::string& name, const std::string& where) {
     fail_at(where, fmt::format("the name '{}' will not do: up to {} characters, no blanks, none of . = / \\, "
                                "and not digits alone",
                                name.substr(0, max_name_length), max_name_length));
+  // Caches are called so, and a collection of VTP files names them in XML.
+  if (xml_characters(name) != name)
+    fail_at(where, "the name holds U+FFFE or U+FFFF, which stand for no character; leave them out");
 }
 
 void read_look(MapReader& map, const std::filesystem::path& folder, Look& look) {

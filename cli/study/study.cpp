@@ -16,6 +16,16 @@ Words<PictureKind> words(PictureKind) {
   return list;
 }
 
+bool is_plot(const PictureSpec& picture) {
+  return picture.kind == PictureKind::plot || picture.kind == PictureKind::spectrum_curves;
+}
+
+std::vector<std::string> files_of(const PictureSpec& picture) {
+  std::vector<std::string> files = {picture.name + ".png"};
+  if (is_plot(picture)) files.insert(files.end(), {picture.name + ".svg", picture.name + ".csv"});
+  return files;
+}
+
 std::vector<StudyRun> runs_of(const Study& study) {
   std::vector<StudyRun> runs{{1, {}}};
   for (const Axis& axis : study.axes) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,16 @@ struct PictureSpec {
   std::string x_label, y_label;
   bool log_x = false, log_y = false;
 };
+
+/// Draws curves: its picture is an SVG file too, and its numbers a table.
+bool is_plot(const PictureSpec& picture);
+/// The names of the files of a picture.
+std::vector<std::string> files_of(const PictureSpec& picture);
+
+/// The names of the files that a study makes of all its runs, besides its pictures.
+namespace study_files {
+inline constexpr std::string_view table = "results.csv", record = "study.json", page = "index.html";
+}
 
 struct Study {
   std::filesystem::path file, scene;

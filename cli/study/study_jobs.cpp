@@ -4,17 +4,19 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <deque>
 #include <map>
 #include <system_error>
 #include <thread>
 
+#include "base/claim.h"
 #include "base/error.h"
 #include "cli/run/interrupt.h"
 
@@ -25,64 +27,76 @@ namespace billow::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds look_again{20};
+constexpr std::chrono::milliseconds look_again{20}, ask_again{500};
+constexpr std::chrono::seconds grace{2};  // for a child to end by itself
 
-/// What posix_spawn needs, released with it.
-class SpawnSetup {
- public:
-  explicit SpawnSetup(const std::string& log) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
-    posix_spawnattr_init(&attributes_);
-    // A group of its own: Ctrl-C at the terminal reaches this process alone, which hands it on once.
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-  }
-  ~SpawnSetup() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnSetup(const SpawnSetup&) = delete;
-  SpawnSetup& operator=(const SpawnSetup&) = delete;
+// A log begins anew: one of an earlier run, or what else has its name, is not written into.
+int open_log(const std::filesystem::path& file) {
+  unlink(file.c_str());
+  const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (log >= 0) return log;
+  const char* reason = errno == EEXIST ? "it exists and is not a file; remove it" : std::strerror(errno);
+  throw OutputError(fmt::format("cannot write {}: {}", file.string(), reason));
+}
 
-  pid_t spawn(const std::vector<std::string>& words) const {
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int error = posix_spawn(&child, "/proc/self/exe", &actions_, &attributes_, arguments.data(), environ);
-    if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start a run of the study");
-    return child;
-  }
+// The child from fork to exec, where only what is safe in a signal handler may be called.
+[[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
+  // A group of its own: Ctrl-C at the terminal reaches the parent alone, which hands it on once.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could be told
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execve("/proc/self/exe", arguments, environ);
+  static constexpr char words[] = "this program cannot be started again\n";
+  if (write(STDERR_FILENO, words, sizeof words - 1) < 0) _exit(EXIT_FAILURE);
+  _exit(EXIT_FAILURE);
+}
 
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
+pid_t start_process(const JobCommand& command) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command.words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const int log = open_log(command.log);
+  const pid_t parent = getpid(), child = fork();
+  const int error = errno;
+  if (child == 0) become(arguments.data(), log, parent);
+  close(log);
+  if (child < 0) throw std::system_error(error, std::generic_category(), "cannot start a run of the study");
+  return child;
+}
 
 int exit_status(int wait_status) {
   return WIFSIGNALED(wait_status) ? 128 + WTERMSIG(wait_status) : WEXITSTATUS(wait_status);
 }
 
-/// The children that are running.
+/// The children that are running. Those that still are when it goes out of scope are ended.
 class Children {
  public:
+  Children() = default;
+  ~Children() { end_all(SIGTERM); }
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+
   std::size_t count() const { return running_.size(); }
 
-  void start(int number, const std::vector<std::string>& words, const std::string& log) {
-    running_[SpawnSetup(log).spawn(words)] = {number, Clock::now()};
+  void start(int number, const JobCommand& command) { running_[start_process(command)] = {number, Clock::now()}; }
+
+  std::vector<int> numbers() const {
+    std::vector<int> numbers;
+    for (const auto& [process, child] : running_) numbers.push_back(child.number);
+    return numbers;
   }
 
-  /// Waits a moment; the ends of those that have ended meanwhile.
+  /// The ends of those that have ended, waiting a moment for one.
   std::vector<JobEnd> wait_a_moment() {
     std::vector<JobEnd> ends;
     for (auto child = running_.begin(); child != running_.end();) {
       int status = 0;
       if (waitpid(child->first, &status, WNOHANG) == child->first) {
-        const double seconds = std::chrono::duration<double>(Clock::now() - child->second.second).count();
-        ends.push_back({child->second.first, exit_status(status), seconds});
+        const double seconds = std::chrono::duration<double>(Clock::now() - child->second.start).count();
+        ends.push_back({child->second.number, exit_status(status), seconds});
         child = running_.erase(child);
       } else {
         ++child;
@@ -92,34 +106,86 @@ class Children {
     return ends;
   }
 
-  void signal_all(int signal) {
-    for (const auto& [child, run] : running_) kill(child, signal);
+  /// Ends the one that does a run, at once.
+  void kill_run(int number) {
+    for (auto child = running_.begin(); child != running_.end(); ++child)
+      if (child->second.number == number) {
+        kill(child->first, SIGKILL);
+        waitpid(child->first, nullptr, 0);
+        running_.erase(child);
+        return;
+      }
+  }
+
+  void end_all(int signal) {
+    for (const auto& [process, child] : running_) kill(process, signal);
+    const Clock::time_point end = Clock::now() + grace;
+    while (count() > 0 && Clock::now() < end) wait_a_moment();
+    for (const int number : numbers()) kill_run(number);
   }
 
  private:
-  std::map<pid_t, std::pair<int, Clock::time_point>> running_;
+  struct Child {
+    int number = 0;
+    Clock::time_point start;
+  };
+  std::map<pid_t, Child> running_;  // by process
+};
+
+/// The runs that are not done yet, and the children at some of them.
+class JobList {
+ public:
+  JobList(const std::vector<int>& numbers, int jobs, JobKeeper& keeper)
+      : jobs_(static_cast<std::size_t>(jobs)), keeper_(keeper), next_(numbers.begin(), numbers.end()) {}
+
+  void run() {
+    while (!next_.empty() || !held_.empty() || children_.count() > 0) {
+      if (interrupted_by() != 0) return children_.end_all(interrupted_by());
+      start_what_can();
+      look_after();
+      for (const JobEnd& end : children_.wait_a_moment()) keeper_.ended(end);
+    }
+  }
+
+ private:
+  bool has_room() const { return children_.count() < jobs_; }
+
+  void start_what_can() {
+    if (has_room() && Clock::now() >= next_asking_) {
+      next_asking_ = Clock::now() + ask_again;
+      next_.insert(next_.begin(), held_.begin(), held_.end());
+      held_.clear();
+    }
+    while (!next_.empty() && has_room()) {
+      const int number = next_.front();
+      next_.pop_front();
+      const Turn turn = keeper_.turn_of(number);
+      if (turn == Turn::now) children_.start(number, keeper_.command_of(number));
+      if (turn == Turn::later) held_.push_back(number);
+    }
+    if (children_.count() == 0 && !held_.empty()) keeper_.waits(held_);
+  }
+
+  void look_after() {
+    if (Clock::now() < next_look_) return;
+    next_look_ = Clock::now() + Claim::sign_interval;
+    for (const int number : children_.numbers())
+      if (!keeper_.goes_on(number)) {
+        children_.kill_run(number);
+        held_.push_back(number);
+      }
+  }
+
+  const std::size_t jobs_;
+  JobKeeper& keeper_;
+  std::deque<int> next_;   // to be started
+  std::vector<int> held_;  // by other processes
+  Clock::time_point next_asking_{}, next_look_{};
+  Children children_;
 };
 
 }  // namespace
 
-void run_jobs(const std::filesystem::path& study, const std::filesystem::path& folder, const std::vector<int>& numbers,
-              int jobs, const std::function<std::filesystem::path(int)>& log_of,
-              const std::function<void(const JobEnd&)>& ended) {
-  Children children;
-  std::size_t next = 0;
-  bool handed_on = false;
-  while (next < numbers.size() || children.count() > 0) {
-    const bool stop = interrupted_by() != 0;
-    if (stop && children.count() == 0) return;
-    if (stop && !handed_on) children.signal_all(interrupted_by()), handed_on = true;
-    while (!stop && next < numbers.size() && static_cast<int>(children.count()) < jobs) {
-      const int number = numbers[next++];
-      children.start(number,
-                     {"billow", "study", study.string(), "-o", folder.string(), "--only", std::to_string(number)},
-                     log_of(number).string());
-    }
-    for (const JobEnd& end : children.wait_a_moment()) ended(end);
-  }
-}
+void run_jobs(const std::vector<int>& numbers, int jobs, JobKeeper& keeper) { JobList(numbers, jobs, keeper).run(); }
 
 }  // namespace billow::cli

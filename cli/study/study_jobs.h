@@ -2,10 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <string>
 #include <vector>
-
-#include "cli/study/study.h"
 
 namespace billow::cli {
 
@@ -16,11 +14,38 @@ struct JobEnd {
   double seconds = 0.0;
 };
 
-/// Runs `billow study FILE -o FOLDER --only N` for every N in `numbers`, at most `jobs` at a time, each with its output
-/// in `log_of(N)`. `ended` is called as each ends. A signal to this process is handed on to the children, and no more
-/// are started. Throws OutputError when a log cannot be written, std::system_error when no process can be started.
-void run_jobs(const std::filesystem::path& study, const std::filesystem::path& folder, const std::vector<int>& numbers,
-              int jobs, const std::function<std::filesystem::path(int)>& log_of,
-              const std::function<void(const JobEnd&)>& ended);
+/// How a run's child is started.
+struct JobCommand {
+  std::vector<std::string> words;  // for this very program, its name first
+  std::filesystem::path log;       // of what it writes to stdout and stderr; begun anew
+};
+
+/// Whether a run's turn has come.
+enum class Turn {
+  now,
+  later,  // another process is at it: ask again
+  past    // there is nothing to do any more
+};
+
+/// What run_jobs asks of the runs that it does.
+class JobKeeper {
+ public:
+  virtual ~JobKeeper() = default;
+  /// Asked before a run is started, at most twice a second.
+  virtual Turn turn_of(int number) = 0;
+  virtual JobCommand command_of(int number) = 0;
+  /// Asked every few seconds while the run goes on; false: it is another process's now, so its child is ended and its
+  /// turn asked for again.
+  virtual bool goes_on(int number) = 0;
+  virtual void ended(const JobEnd& end) = 0;
+  /// Called when nothing is left but to wait for `others`, runs that other processes are at.
+  virtual void waits(const std::vector<int>& others) = 0;
+};
+
+/// Does the runs `numbers` in their order, at most `jobs` at a time. No child outlives this call, however it ends, nor
+/// this process, even where that is killed. A signal to this process is handed on to the children, and no more are
+/// started; those that do not end within two seconds are killed. Throws OutputError when a log cannot be written,
+/// std::system_error when no process can be started, and what `keeper` throws.
+void run_jobs(const std::vector<int>& numbers, int jobs, JobKeeper& keeper);
 
 }  // namespace billow::cli

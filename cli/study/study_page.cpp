@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/xml.h"
 #include "cli/page/report_page.h"
 #include "cli/text/command_text.h"
 
@@ -15,19 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_plot(const PictureSpec& picture) {
-  return picture.kind == PictureKind::plot || picture.kind == PictureKind::spectrum_curves;
-}
-
 // Plots as SVG, which stays sharp in print; their data beside them.
 std::string figure(const PictureSpec& picture, bool first) {
-  const std::string title = html_escape(picture.title.empty() ? picture.name : picture.title);
+  const std::string title = xml_escape(picture.title.empty() ? picture.name : picture.title);
   const std::string file = picture.name + (is_plot(picture) ? ".svg" : ".png");
   const std::string data = is_plot(picture) ? fmt::format(R"( <a href="{0}.csv">{0}.csv</a>)", picture.name) : "";
   return fmt::format(
       R"({}<figure class="hero"><a href="{}"><img src="{}" alt="{}"></a><figcaption>{}{}</figcaption></figure>
 )",
-      first ? "" : "<h2>" + title + "</h2>\n", file, file, title, html_escape(picture.note), data);
+      first ? "" : "<h2>" + title + "</h2>\n", file, file, title, xml_escape(picture.note), data);
 }
 
 // The columns that any run has a value in.
@@ -42,11 +39,11 @@ std::vector<const ResultColumn*> used_columns(const StudyContents& contents) {
 
 std::string head(const StudyContents& contents, const std::vector<const ResultColumn*>& columns) {
   std::string row = R"(<tr><th class="number">run</th>)";
-  for (const Axis& axis : contents.study.axes) row += "<th>" + html_escape(axis.name) + "</th>";
+  for (const Axis& axis : contents.study.axes) row += "<th>" + xml_escape(axis.name) + "</th>";
   row += "<th>status</th>";
   for (const ResultColumn* column : columns) {
     const std::string unit = column->unit.empty() ? "" : fmt::format(" [{}]", column->unit);
-    row += fmt::format(R"(<th class="number">{}{}</th>)", html_escape(column->name), html_escape(unit));
+    row += fmt::format(R"(<th class="number">{}{}</th>)", xml_escape(column->name), xml_escape(unit));
   }
   return row + "</tr>\n";
 }
@@ -56,7 +53,7 @@ std::string numbered(const StudyContents& contents, const StudyRun& run) {
   const fs::path page = run_folder("", contents.study, run) / "film" / "index.html";
   std::error_code error;
   if (!fs::exists(contents.folder / page, error)) return std::to_string(run.number);
-  return fmt::format(R"(<a href="{}">{}</a>)", html_escape(page.generic_string()), run.number);
+  return fmt::format(R"(<a href="{}">{}</a>)", xml_escape(page.generic_string()), run.number);
 }
 
 std::string row(const StudyContents& contents, std::size_t r, const std::vector<const ResultColumn*>& columns) {
@@ -65,8 +62,8 @@ std::string row(const StudyContents& contents, std::size_t r, const std::vector<
   std::string out = fmt::format(R"(<tr{}><td class="number">{}</td>)",
                                 result.status == RunStatus::done ? "" : R"( class="bad")", numbered(contents, run));
   for (std::size_t a = 0; a < contents.study.axes.size(); ++a)
-    out += "<td>" + html_escape(contents.study.axes[a].values[run.choice[a]].label) + "</td>";
-  const std::string why = result.message.empty() ? "" : fmt::format(R"( title="{}")", html_escape(result.message));
+    out += "<td>" + xml_escape(contents.study.axes[a].values[run.choice[a]].label) + "</td>";
+  const std::string why = result.message.empty() ? "" : fmt::format(R"( title="{}")", xml_escape(result.message));
   out += fmt::format("<td{}>{}</td>", why, name(result.status));
   for (const ResultColumn* column : columns) {
     const std::optional<double> value = result.value(column->name);
@@ -87,17 +84,17 @@ std::string runs_table(const StudyContents& contents) {
 
 std::string commands(const StudyContents& contents) {
   std::string out = "<h2>Again</h2>\n<pre class=\"command\">" +
-                    html_escape(command_line({"billow", "study", contents.study.file.string()})) +
+                    xml_escape(command_line({"billow", "study", contents.study.file.string()})) +
                     "</pre>\n<details><summary>The command for each run, and its whole scene</summary>\n";
   for (std::size_t r = 0; r < contents.runs.size(); ++r) {
     const RunResult& result = contents.results[r];
     if (result.status == RunStatus::missing) continue;
     out += fmt::format("<h3>{}: {}</h3>\n<pre class=\"command\">{}</pre>\n", contents.runs[r].number,
-                       html_escape(label_of(contents.study, contents.runs[r])), html_escape(result.command));
-    if (!result.message.empty()) out += fmt::format("<p class=\"note bad\">{}</p>\n", html_escape(result.message));
+                       xml_escape(label_of(contents.study, contents.runs[r])), xml_escape(result.command));
+    if (!result.message.empty()) out += fmt::format("<p class=\"note bad\">{}</p>\n", xml_escape(result.message));
     if (!result.scene.empty())
       out += fmt::format("<details><summary>scene</summary><pre class=\"scene\">{}</pre></details>\n",
-                         html_escape(result.scene));
+                         xml_escape(result.scene));
   }
   return out + "</details>\n";
 }
@@ -121,14 +118,14 @@ std::string shortfalls(const StudyContents& contents) {
 
 std::string study_page(const StudyContents& contents) {
   const Study& study = contents.study;
-  std::string body = fmt::format("<header><h1>{}</h1>\n<p class=\"summary\">{}</p></header>\n",
-                                 html_escape(study.title), html_escape(study.about));
+  std::string body = fmt::format("<header><h1>{}</h1>\n<p class=\"summary\">{}</p></header>\n", xml_escape(study.title),
+                                 xml_escape(study.about));
   body += shortfalls(contents);
   for (std::size_t p = 0; p < study.pictures.size(); ++p) {
     const auto fault = contents.faults.find(study.pictures[p].name);
     body += fault == contents.faults.end() ? figure(study.pictures[p], p == 0)
-                                           : fmt::format("<p class=\"note bad\">{}: {}</p>\n",
-                                                         html_escape(fault->first), html_escape(fault->second));
+                                           : fmt::format("<p class=\"note bad\">{}: {}</p>\n", xml_escape(fault->first),
+                                                         xml_escape(fault->second));
   }
   body += runs_table(contents) + commands(contents);
   return html_page(study.title, body);

@@ -5,13 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "cli/run/finished_run.h"
+#include "cli/run/output_folder.h"
+#include "cli/scene/scene_parts.h"
+#include "cli/text/command_text.h"
 #include "cli/text/number_text.h"
+#include "cli/text/text_file.h"
 #include "render/image/png.h"
 #include "render/paper/plot.h"
 #include "render/paper/sheet.h"
@@ -25,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr int strip_width = 1200, strip_height = 260;
 constexpr int spectrum_side = 300;
 constexpr int thumbnail_width = 300;
+constexpr std::uintmax_t max_table_bytes = 64 << 20;
 
 /// A run that a picture shows, with what is on disk of it.
 struct Shown {
@@ -32,7 +38,38 @@ struct Shown {
   const RunResult* result = nullptr;
   fs::path film;
   std::string label;  // by the axis of the picture's rows, or of all axes
+  std::string again;  // the command that does it again
 };
+
+// `read`, which looks at `file` of a run's film. Where it cannot, the message says which run's it is, and how to get
+// it.
+template <class Read>
+auto of_run(const Shown& run, const fs::path& file, const Read& read) {
+  try {
+    return read(file);
+  } catch (const InputError& error) {
+    std::error_code ignored;
+    const bool in_the_way = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
+    throw InputError(fmt::format("of run {}, {}; {}do the run again with '{}'", run.run->number, error.what(),
+                                 in_the_way ? "remove it, and " : "", run.again));
+  }
+}
+
+// Where the scene asks for no such output, doing the run again would not help.
+void require_output(const Shown& run, std::string_view key) {
+  if (("\n" + run.result->scene).find(fmt::format("\n{}: none\n", key)) == std::string::npos) return;
+  throw InputError(fmt::format("it needs a {0}, and the scene of run {1} has none; give it one with '{0}: {{}}'", key,
+                               run.run->number));
+}
+
+// Says whether the file alone is missing, or all of the film.
+void require_file(const fs::path& file) {
+  const fs::path film = file.parent_path();
+  std::error_code error;
+  if (fs::exists(file, error)) return;
+  const bool film_is_there = fs::exists(film / word_of(RunFile::record), error);
+  throw InputError(fmt::format("{} is missing", (film_is_there ? file : film).string()));
+}
 
 std::vector<Shown> shown_runs(const StudyContents& contents, const PictureSpec& picture) {
   std::vector<Shown> shown;
@@ -42,7 +79,9 @@ std::vector<Shown> shown_runs(const StudyContents& contents, const PictureSpec& 
     const std::string label = picture.rows ? contents.study.axes[*picture.rows].values[run.choice[*picture.rows]].label
                               : contents.runs.size() == 1 ? ""
                                                           : label_of(contents.study, run);
-    shown.push_back({&run, &contents.results[r], run_folder(contents.folder, contents.study, run) / "film", label});
+    shown.push_back({&run, &contents.results[r], run_folder(contents.folder, contents.study, run) / "film", label,
+                     command_line({"billow", "study", contents.study.file.string(), "-o", contents.folder.string(),
+                                   "--only", std::to_string(run.number)})});
   }
   return shown;
 }
@@ -58,7 +97,14 @@ std::vector<Shown> rendered_runs(const StudyContents& contents, const PictureSpe
   return shown;
 }
 
-std::vector<std::pair<long, double>> frames_of(const Shown& run) { return read_finished_run(run.film).frames; }
+FinishedRun finished_run(const Shown& run) {
+  return of_run(run, run.film / word_of(RunFile::record), [&](const fs::path& record) {
+    require_file(record);
+    return read_finished_run(run.film);
+  });
+}
+
+std::vector<std::pair<long, double>> frames_of(const Shown& run) { return finished_run(run).frames; }
 
 // The frame nearest to `time`; nothing when the run ended before.
 std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long, double>>& frames, double time) {
@@ -72,7 +118,8 @@ std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long
 }
 
 render::Panel frame_panel(const Shown& run, const std::string& view, long frame, int width) {
-  render::Panel panel{render::read_png(run.film / view / fmt::format("frame_{:04}.png", frame)), width, 0, true, ""};
+  const fs::path file = run.film / view / fmt::format("frame_{:04}.png", frame);
+  render::Panel panel{of_run(run, file, render::read_png), width, 0, true, ""};
   panel.height = std::max(1, panel.image.height * width / std::max(1, panel.image.width));
   return panel;
 }
@@ -81,26 +128,32 @@ std::string lettered(std::size_t index, const std::string& label) {
   return fmt::format("({}) {}", static_cast<char>('a' + index % 26), label);
 }
 
-[[noreturn]] void fail_for(const std::string& reason) { throw InputError(fmt::format("it {}", reason)); }
+// A picture that a run makes where its scene has `key`.
+render::Image image_of(const Shown& run, RunFile picture, std::string_view key) {
+  require_output(run, key);
+  return of_run(run, run.film / word_of(picture), [&](const fs::path& file) {
+    require_file(file);
+    return render::read_png(file);
+  });
+}
 
 // A strip ends with its scene, or where the run diverged.
 double strip_duration(const Shown& run) {
   const double duration = run.result->value("duration").value_or(0.0);
   if (run.result->status == RunStatus::done) return duration;
-  return std::min(duration, read_finished_run(run.film).simulated_time);
+  return std::min(duration, finished_run(run).simulated_time);
 }
 
 // One strip above the other on one time axis; below them the first run's frames, each beginning at its time.
 render::Sheet strips_sheet(const std::vector<Shown>& runs, const PictureSpec& picture, double duration) {
   render::Sheet sheet{picture.title, picture.note, {}, 0.0, duration, strip_width, {}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const fs::path file = runs[r].film / "velocity_strip.png";
-    std::error_code error;
-    if (!fs::exists(file, error)) fail_for("needs a strip; give the scene one with 'strip: {}'");
     const double share = strip_duration(runs[r]) / duration;
     const int width = std::max(1, static_cast<int>(std::lround(share * strip_width)));
-    sheet.rows.push_back(
-        {lettered(r, runs[r].label), {{render::read_png(file), width, strip_height, true, ""}}, {}, false});
+    sheet.rows.push_back({lettered(r, runs[r].label),
+                          {{image_of(runs[r], RunFile::strip, "strip"), width, strip_height, true, ""}},
+                          {},
+                          false});
   }
   sheet.rows.back().axis_below = true;
   render::SheetRow frames{lettered(runs.size(), "frames of " + runs.front().label), {}, {}, false};
@@ -120,14 +173,12 @@ render::Sheet spectra_sheet(const std::vector<Shown>& runs, const PictureSpec& p
   render::Sheet sheet{picture.title, picture.note, {}, 0.0, 0.0, 0, {}};
   render::SheetRow above{"", {}, {}, false}, below = above;
   for (const Shown& run : runs) {
-    std::error_code error;
-    if (!fs::exists(run.film / "velocity_spectrum.png", error))
-      fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
     sheet.columns.push_back(run.label);
-    above.panels.push_back(
-        {render::read_png(run.film / "velocity_image.png"), spectrum_side, spectrum_side, false, ""});
-    below.panels.push_back(
-        {render::read_png(run.film / "velocity_spectrum.png"), spectrum_side, spectrum_side, false, ""});
+    const auto panel = [&](RunFile file) {
+      return render::Panel{image_of(run, file, "spectrum"), spectrum_side, spectrum_side, false, ""};
+    };
+    above.panels.push_back(panel(RunFile::velocity_image));
+    below.panels.push_back(panel(RunFile::spectrum));
   }
   sheet.rows = {std::move(above), std::move(below)};
   return sheet;
@@ -236,18 +287,30 @@ render::Plot value_plot(const StudyContents& contents, const PictureSpec& pictur
           curves.sorted()};
 }
 
+// "0,1.5": a frequency and its power.
+std::pair<double, double> spectrum_row(const std::string& line) {
+  const std::size_t comma = std::min(line.find(','), line.size());
+  const ParsedNumber frequency = parse_number(line.substr(0, comma));
+  const ParsedNumber power = parse_number(line.substr(std::min(comma + 1, line.size())));
+  if (frequency.fault != NumberFault::none || power.fault != NumberFault::none)
+    throw InputError(fmt::format("'{}' is no row of a spectrum; the file is damaged", shortened(line)));
+  return {frequency.value, power.value};
+}
+
 // The rows of a run's spectrum.csv, after its heading.
 std::vector<std::pair<double, double>> spectrum_of_run(const Shown& run) {
-  std::ifstream file(run.film / "spectrum.csv");
-  if (!file) fail_for("needs a spectrum; give the scene one with 'spectrum: {}'");
-  std::vector<std::pair<double, double>> points;
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    const std::size_t comma = std::min(line.find(','), line.size() - 1);
-    points.emplace_back(parse_number(line.substr(0, comma)).value, parse_number(line.substr(comma + 1)).value);
-  }
-  return points;
+  require_output(run, "spectrum");
+  return of_run(run, run.film / word_of(RunFile::spectrum_table), [&](const fs::path& file) {
+    require_file(file);
+    std::istringstream lines(read_regular_file(file, max_table_bytes, "; this is no spectrum"));
+    std::vector<std::pair<double, double>> points;
+    std::string line;
+    std::getline(lines, line);
+    for (long number = 2; std::getline(lines, line); ++number)
+      points.push_back(located(fmt::format("{}:{}", file.string(), number), [&] { return spectrum_row(line); }));
+    if (points.empty()) throw InputError(fmt::format("{}: has no rows; the file is damaged", file.string()));
+    return points;
+  });
 }
 
 render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& picture) {
@@ -266,6 +329,19 @@ render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& pic
           curves.sorted()};
 }
 
+// "run 1 is missing, run 2 failed (exit status 4: …)", the first few of them.
+std::string unfinished_runs(const std::vector<Shown>& runs) {
+  constexpr std::size_t most_named = 3;
+  std::vector<std::string> parts;
+  for (const Shown& run : runs) {
+    if (parts.size() == most_named) break;
+    const bool failed = run.result->status == RunStatus::failed;
+    parts.push_back(failed ? fmt::format("run {} failed ({})", run.run->number, run.result->message)
+                           : fmt::format("run {} is missing", run.run->number));
+  }
+  return fmt::format("{}{}", fmt::join(parts, ", "), runs.size() > parts.size() ? ", …" : "");
+}
+
 double longest(const std::vector<Shown>& runs) {
   double duration = 0.0;
   for (const Shown& run : runs) duration = std::max(duration, run.result->value("duration").value_or(0.0));
@@ -274,7 +350,7 @@ double longest(const std::vector<Shown>& runs) {
 
 render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture) {
   const std::vector<Shown> runs = rendered_runs(contents, picture);
-  if (runs.empty()) fail_for("has no finished run to show");
+  if (runs.empty()) throw InputError("none of its runs is finished: " + unfinished_runs(shown_runs(contents, picture)));
   switch (picture.kind) {
     case PictureKind::strips:
       return strips_sheet(runs, picture, longest(runs));

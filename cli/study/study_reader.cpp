@@ -246,13 +246,41 @@ PictureSpec read_picture(const Study& study, const Node& node) {
   return picture;
 }
 
+// As a file system that takes no account of case tells names apart.
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// Whose a file of the study's folder is; `where` is empty for the study's own.
+struct FileOwner {
+  std::string name, where;
+};
+using FileOwners = std::map<std::string, FileOwner>;  // by the file's name in lower case
+
+// Every file of the study's folder has one writer.
+void check_file_names(const PictureSpec& picture, const std::string& where, FileOwners& owners) {
+  for (const std::string& file : files_of(picture)) {
+    const auto [owner, fresh] = owners.try_emplace(lower_case(file), FileOwner{picture.name, where});
+    const auto& [name, first] = owner->second;
+    if (fresh) continue;
+    if (first.empty())
+      fail_at(where, fmt::format("a picture named '{}' would replace the study's own {}; call it differently",
+                                 picture.name, name));
+    fail_at(where,
+            fmt::format("a second picture named '{}'; the first is at {}{}", picture.name, first,
+                        name == picture.name ? "" : fmt::format("; some file systems take '{}' for the same", name)));
+  }
+}
+
 void read_pictures(MapReader& map, Study& study) {
-  std::map<std::string, std::string> places;
+  FileOwners owners;
+  for (const std::string_view file : {study_files::table, study_files::record, study_files::page})
+    owners[std::string(file)] = {std::string(file), ""};
   for (const NodePtr& item : read_list(map.require("pictures"), "pictures")) {
     study.pictures.push_back(read_picture(study, *item));
-    const auto [first, fresh] = places.try_emplace(study.pictures.back().name, item->where);
-    if (!fresh)
-      fail_at(item->where, fmt::format("a second picture named '{}'; the first is at {}", first->first, first->second));
+    check_file_names(study.pictures.back(), item->find("name")->value->where, owners);
   }
   if (study.pictures.empty()) fail_at(map.where("pictures"), "pictures is empty: a study needs something to make");
 }

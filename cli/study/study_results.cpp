@@ -3,11 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/atomic_file.h"
+#include "base/csv.h"
+#include "base/error.h"
+#include "base/regular_file.h"
+#include "cli/text/json_text.h"
 #include "cli/text/number_text.h"
 #include "cli/text/version.h"
 
@@ -17,6 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* result_name = "result.json";
+constexpr std::uintmax_t max_result_bytes = 64 << 20;
 
 // "backward Euler, 0.01 s" -> "backward-Euler-0.01-s"
 std::string slug(const std::string& label) {
@@ -33,7 +42,19 @@ std::string slug(const std::string& label) {
 RunStatus status_named(const std::string& word) {
   for (const RunStatus status : {RunStatus::done, RunStatus::diverged, RunStatus::failed})
     if (word == name(status)) return status;
-  return RunStatus::missing;
+  throw InputError("unknown status");
+}
+
+// The file's text; nothing where there is none, also when another process has just removed it.
+std::optional<std::string> result_text(const fs::path& file) {
+  std::error_code error;
+  try {
+    if (!fs::exists(file, error)) return std::nullopt;
+    return read_regular_file(file, max_result_bytes, "; this is no result");
+  } catch (const InputError& fault) {
+    if (!fs::exists(file, error)) return std::nullopt;
+    throw InputError(fmt::format("{}; move it away or remove it, and the run is done again", fault.what()));
+  }
 }
 
 RunResult parsed(const Json& json) {
@@ -45,13 +66,6 @@ RunResult parsed(const Json& json) {
   result.scene = json.at("scene").get<std::string>();
   for (const auto& [column, value] : json.at("values").items()) result.values.emplace_back(column, value.get<double>());
   return result;
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 Json values_of(const RunResult& result) {
@@ -139,19 +153,35 @@ fs::path run_folder(const fs::path& folder, const Study& study, const StudyRun& 
 void write_result(const fs::path& run_folder, const RunResult& result) {
   const Json json = {{"status", name(result.status)}, {"hash", result.hash},   {"message", result.message},
                      {"command", result.command},     {"scene", result.scene}, {"values", values_of(result)}};
-  write_file_atomically(run_folder / "result.json", json.dump(1) + "\n");
+  write_file_atomically(run_folder / result_name, json_text(json, 1) + "\n");
 }
 
 RunResult read_result(const fs::path& run_folder, const std::string& hash) {
-  std::ifstream file(run_folder / "result.json");
-  if (!file) return {};
+  const std::optional<std::string> text = result_text(run_folder / result_name);
+  if (!text) return {};
+  RunResult damaged;
+  damaged.message = "its result.json is damaged and counts as none";
   try {
-    RunResult result = parsed(Json::parse(file));
-    if (result.hash == hash) return result;
+    RunResult result = parsed(Json::parse(*text));
+    return result.hash == hash ? result : RunResult();
   } catch (const Json::exception&) {
-    // a damaged record is no record
+    return damaged;
+  } catch (const InputError&) {
+    return damaged;
   }
-  return {};
+}
+
+ResultStamp result_stamp(const fs::path& run_folder) {
+  struct stat status = {};
+  if (stat((run_folder / result_name).c_str(), &status) != 0) return {};
+  return {status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+void remove_result(const fs::path& run_folder) {
+  std::error_code error;
+  fs::remove(run_folder / result_name, error);
+  if (error)
+    throw OutputError(fmt::format("cannot replace {}: {}", (run_folder / result_name).string(), error.message()));
 }
 
 std::string results_csv(const Study& study, const std::vector<StudyRun>& runs, const std::vector<RunResult>& results) {
@@ -180,7 +210,7 @@ std::string study_json(const Study& study, const std::vector<StudyRun>& runs, co
   for (std::size_t r = 0; r < runs.size(); ++r) json["runs"].push_back(run_json(study, runs[r], results[r]));
   for (const PictureSpec& picture : study.pictures)
     json["pictures"].push_back({{"name", picture.name}, {"title", picture.title}, {"file", picture.name + ".png"}});
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace billow::cli

@@ -1,6 +1,7 @@
 // What a study's runs came to, on disk and as a table.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,9 +39,21 @@ struct RunResult {
 /// runs/003-fb_euler-0.5 in the study's folder.
 std::filesystem::path run_folder(const std::filesystem::path& folder, const Study& study, const StudyRun& run);
 
-/// result.json of a run. Reading gives a missing result where the file is missing or damaged, or not of this `hash`.
+/// result.json of a run. Reading gives a missing result where there is no file, or one that is not of this `hash` or
+/// damaged; a damaged one leaves a message. Throws InputError where something that is no file is in its place, or a
+/// file that cannot be read.
 void write_result(const std::filesystem::path& run_folder, const RunResult& result);
 RunResult read_result(const std::filesystem::path& run_folder, const std::string& hash);
+/// Removes it, if it is there. Throws OutputError.
+void remove_result(const std::filesystem::path& run_folder);
+
+/// Tells a result from the one that another process writes in its place, also when both say the same. All zero: none.
+struct ResultStamp {
+  std::uint64_t file = 0;
+  std::int64_t seconds = 0, nanoseconds = 0;
+  bool operator==(const ResultStamp&) const = default;
+};
+ResultStamp result_stamp(const std::filesystem::path& run_folder);
 
 /// results.csv: a row for every run, its labels, status and values.
 std::string results_csv(const Study& study, const std::vector<StudyRun>& runs, const std::vector<RunResult>& results);

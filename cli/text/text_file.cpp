@@ -4,45 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "base/error.h"
+#include "base/regular_file.h"
+#include "base/utf8.h"
 
 namespace billow::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-void check_regular(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(file.string() + ": no such file");
-  if (status.type() == fs::file_type::none) throw InputError(file.string() + ": " + error.message());
-  if (status.type() == fs::file_type::directory) throw InputError(file.string() + ": this is a folder, not a file");
-  if (status.type() != fs::file_type::regular) throw InputError(file.string() + ": this is not a regular file");
-}
-
 bool is_continuation(unsigned char byte) { return (byte & 0xC0) == 0x80; }
-
-// Bytes of the UTF-8 sequence that begins with `lead`, 0 if none does.
-int sequence_length(unsigned char lead) {
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead < 0xE0) return 2;
-  if (lead >= 0xE0 && lead < 0xF0) return 3;
-  if (lead >= 0xF0 && lead < 0xF5) return 4;
-  return 0;
-}
-
-// The second byte rules out overlong forms, surrogates and everything past U+10FFFF.
-bool second_byte_fits(unsigned char lead, unsigned char second) {
-  if (lead == 0xE0) return second >= 0xA0;
-  if (lead == 0xED) return second < 0xA0;
-  if (lead == 0xF0) return second >= 0x90;
-  if (lead == 0xF4) return second < 0x90;
-  return true;
-}
 
 bool is_control(unsigned char byte) {
   return (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
@@ -50,30 +20,13 @@ bool is_control(unsigned char byte) {
 
 // Bytes of the text character at the front of `bytes`, 0 if there is none.
 int character_length(std::string_view bytes) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-  const int length = is_control(byte(0)) ? 0 : sequence_length(byte(0));
-  if (static_cast<std::size_t>(length) > bytes.size()) return 0;
-  for (int i = 1; i < length; ++i)
-    if (!is_continuation(byte(i))) return 0;
-  return length > 1 && !second_byte_fits(byte(0), byte(1)) ? 0 : length;
+  return is_control(static_cast<unsigned char>(bytes[0])) ? 0 : utf8_length(bytes);
 }
 
 }  // namespace
 
-std::string read_text_file(const fs::path& file, std::uintmax_t max_bytes) {
-  check_regular(file);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be opened: {}", file.string(), std::strerror(errno)));
-  // One byte more than allowed is asked for, so that a file that grows meanwhile is caught too.
-  std::error_code error;
-  const bool large = fs::file_size(file, error) > max_bytes;
-  std::string bytes(large ? 0 : max_bytes + 1, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  if (large || bytes.size() > max_bytes)
-    throw InputError(fmt::format("{}: larger than {} KiB; this is no scene", file.string(), max_bytes / 1024));
-  if (stream.bad()) throw InputError(file.string() + ": cannot be read");
-  return bytes;
+std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+  return read_regular_file(file, max_bytes, "; this is no scene");
 }
 
 std::optional<std::size_t> find_non_text(std::string_view bytes) {

@@ -72,8 +72,13 @@ using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   throw InputError(fmt::format("{}: {}", file.string(), reason));
 }
 
+// What is no file is refused unopened: a pipe would be waited for.
 Stream open_to_read(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) refuse(file, "is a folder, not a PNG image");
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) refuse(file, "is a folder, not a PNG image");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    refuse(file, "is not a file, and so no PNG image");
   Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!stream) refuse(file, fmt::format("cannot open the image: {}", std::strerror(errno)));
   return stream;

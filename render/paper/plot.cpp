@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <sstream>
-#include <system_error>
 
 #include "base/atomic_file.h"
 #include "base/child_process.h"
+#include "base/csv.h"
 #include "base/error.h"
+#include "base/xml.h"
 
 namespace billow::render {
 
@@ -26,15 +27,22 @@ constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6
 constexpr std::array dashes = {"1", "2", "4", "5", "3", "1", "2"};
 constexpr std::array points = {7, 5, 9, 13, 11, 6, 4};
 
-// As gnuplot reads it between single quotes, where nothing but the quote itself has a meaning. Between double quotes it
-// would hand what stands in backquotes to a shell.
+// As gnuplot reads it between double quotes. Everything but letters, digits and blanks is written by its number, so
+// that nothing is left for gnuplot to read: quotes, macros, and backquotes, which it would hand to a shell. Line breaks
+// become blanks, and so do other control characters and what is no text.
 std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += c == '\n' || c == '\r' ? ' ' : c;
+  std::string out = "\"";
+  for (const char c : xml_characters(text)) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    if (plain)
+      out += c;
+    else if (byte <= 0x20 || byte == 0x7F)
+      out += ' ';
+    else
+      out += fmt::format("\\{:03o}", byte);
   }
-  return out + '\'';
+  return out + '"';
 }
 
 // Logarithms exist of positive numbers only; gnuplot would give up on a curve without one.
@@ -89,43 +97,42 @@ std::string script(const Plot& plot, const std::string& terminal) {
   return commands.empty() ? "" : out + "plot " + commands + "\n";
 }
 
-// gnuplot's first line that says something.
+// "         line 0: unknown key option" -> "unknown key option"
+std::string without_place(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const std::size_t number = line.find("line "), colon = line.find(": ");
+  return std::string(number != std::string_view::npos && colon != std::string_view::npos && number < colon
+                         ? line.substr(colon + 2)
+                         : line);
+}
+
+// What gnuplot says is wrong, not the command that it repeats before it nor the mark below that.
 std::string complaint(const ProgramResult& result) {
   if (!result.found) return "gnuplot is not installed; install the package gnuplot-nox";
   if (result.timed_out) return "gnuplot did not finish";
   std::istringstream lines(result.errors);
   for (std::string line; std::getline(lines, line);)
-    if (line.find_first_not_of(" \t^") != std::string::npos) return "gnuplot says: " + line;
+    if (line.find_first_not_of(" \t^") != std::string::npos && !line.starts_with("gnuplot> "))
+      return "gnuplot says: " + without_place(line);
   return fmt::format("gnuplot ended with status {}", result.status);
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
-
-// gnuplot writes to a temporary file; it is renamed only when it is whole.
-void draw(const Plot& plot, const std::string& terminal, const fs::path& file) {
-  fs::path temporary = file;
-  temporary += ".drawing";
-  const std::string text =
-      script(plot, fmt::format("set terminal {}\nset output {}\n", terminal, quoted(temporary.string())));
+// The bytes of the picture `file`.
+std::string drawn(const Plot& plot, const std::string& terminal, const fs::path& file) {
+  const std::string text = script(plot, fmt::format("set terminal {}\n", terminal));
   if (text.empty()) throw OutputError(fmt::format("{}: there is no point to plot", file.string()));
   const ProgramResult result = run_program({"gnuplot", "-d"}, text, patience);
-  const std::string bytes = bytes_of(temporary);
-  std::error_code error;
-  fs::remove(temporary, error);
-  if (!result.found || result.timed_out || result.status != 0 || bytes.empty())
+  if (!result.found || result.timed_out || result.status != 0 || result.output.empty())
     throw OutputError(fmt::format("{} cannot be plotted: {}", file.string(), complaint(result)));
-  write_file_atomically(file, bytes);
+  return result.output;
 }
 
-std::string csv_field(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
+// gnuplot escapes & and < alone, but these three characters must not stand in a text either.
+std::string well_formed(std::string svg) {
+  constexpr std::string_view section_end = "]]>";
+  for (std::size_t at = 0; (at = svg.find(section_end, at)) != std::string::npos;)
+    svg.replace(at, section_end.size(), "]]&gt;");
+  return svg;
 }
 
 std::string csv(const Plot& plot) {
@@ -145,11 +152,14 @@ fs::path with_extension(const fs::path& stem, const char* extension) {
 }  // namespace
 
 void write_plot(const Plot& plot, const fs::path& stem) {
+  const fs::path png = with_extension(stem, ".png"), svg = with_extension(stem, ".svg");
   write_file_atomically(with_extension(stem, ".csv"), csv(plot));
-  draw(plot, "pngcairo noenhanced size 1280,800 font \"DejaVu Sans,15\" background rgb \"white\"",
-       with_extension(stem, ".png"));
-  draw(plot, "svg noenhanced size 1280,800 font \"DejaVu Sans,Verdana,sans-serif,18\" background rgb \"white\"",
-       with_extension(stem, ".svg"));
+  write_file_atomically(
+      png, drawn(plot, "pngcairo noenhanced size 1280,800 font \"DejaVu Sans,15\" background rgb \"white\"", png));
+  write_file_atomically(
+      svg, well_formed(drawn(
+               plot, "svg noenhanced size 1280,800 font \"DejaVu Sans,Verdana,sans-serif,18\" background rgb \"white\"",
+               svg)));
 }
 
 }  // namespace billow::render

@@ -281,5 +281,25 @@ TEST_F(CompareCommand, AcceptsNothingWhereNobodyLooks) {
   EXPECT_EQ(compare({"a.png", "b.png"}).status, 0);
 }
 
+TEST_F(CompareCommand, WritesWhatBuildServersRead) {
+  write("a/1 & 2.png", picture());
+  write("b/1 & 2.png", picture());
+  write("a/3.png", picture());
+  folder_.write("b/3.png", "no image");
+  write("b/4.png", picture());
+  EXPECT_EQ(compare({"a", "b", "--junit", "tests.xml"}).status, 3);
+  EXPECT_EQ(test::read_text(folder_.path() / "tests.xml"),
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<testsuite name=\"billow compare a b\" tests=\"3\" failures=\"1\" errors=\"1\">\n"
+            "  <testcase classname=\"billow compare a b\" name=\"1 &amp; 2.png\"/>\n"
+            "  <testcase classname=\"billow compare a b\" name=\"3.png\">\n"
+            "    <error message=\"b/3.png: is not a PNG image\"/>\n"
+            "  </testcase>\n"
+            "  <testcase classname=\"billow compare a b\" name=\"4.png\">\n"
+            "    <failure message=\"missing in a\"/>\n"
+            "  </testcase>\n"
+            "</testsuite>\n");
+}
+
 }  // namespace
 }  // namespace billow

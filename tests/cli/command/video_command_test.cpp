@@ -64,6 +64,22 @@ class OfARun : public testing::Test {
 using Video = OfARun;
 using Sheet = OfARun;
 
+// Its record and page are text all the same, and films are made of its frames.
+TEST_F(OfARun, MayBeInAFolderOfAnyName) {
+  const std::string name = "a\n'b' %d : \xff";
+  fs::rename(path("run"), path(name));
+  for (const std::string& film : {name + "/film.mp4", name + "/film.gif"}) {
+    const ToolResult result = run({"video", name, "-o", film, "--progress", "none"});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_TRUE(fs::is_regular_file(path(film)));
+  }
+  fs::remove_all(path(name));
+  const ToolResult result = run({"render", "scene.yaml", "-o", name, "--progress", "none"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const std::string command = Json::parse(test::read_text(path(name) / "run.json"))["command"];
+  EXPECT_NE(command.find("%d : \uFFFD"), std::string::npos) << command;
+}
+
 TEST_F(Video, OtherProgramsReadEveryFormat) {
   struct Case {
     std::string extension, codec;
@@ -150,8 +166,8 @@ TEST_F(Video, SaysWhereFfmpegComesFrom) {
 
 // A program of ffmpeg's name that takes its time.
 TEST_F(Video, InterruptEndsTheEncoderAndLeavesNoFile) {
-  const fs::path encoder =
-      folder_.write("ffmpeg", "#!/bin/sh\necho $$ > started.new\nmv started.new started\nexec sleep 60\n");
+  const fs::path encoder = folder_.write(
+      "ffmpeg", "#!/bin/sh\ncd \"$(dirname \"$0\")\"\necho $$ > started.new\nmv started.new started\nexec sleep 60\n");
   fs::permissions(encoder, fs::perms::owner_all);
   fs::create_directory(path("out"));
   const ToolResult result = run_program(

@@ -1,4 +1,4 @@
-// Pages as text: escaping, templates, the plots' numbers, and what a run's page says.
+// Pages as text: scripts, templates, the plots' numbers, and what a run's page says.
 #include "cli/page/report_page.h"
 
 #include <gtest/gtest.h>
@@ -43,11 +43,6 @@ RunPage small_page() {
   page.facts = {{"Method", "fb_euler"}};
   page.command = "billow render scene.yaml";
   return page;
-}
-
-TEST(ReportPage, EscapesWhatHtmlWouldRead) {
-  EXPECT_EQ(cli::html_escape("<a href=\"x\">'&amp;'</a> λ"),
-            "&lt;a href=&quot;x&quot;&gt;&#39;&amp;amp;&#39;&lt;/a&gt; λ");
 }
 
 TEST(ReportPage, KeepsJsonFromEndingItsScript) {

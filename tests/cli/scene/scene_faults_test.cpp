@@ -230,6 +230,8 @@ TEST(SceneFaults, Bodies) {
        "scene.yaml:5:11: the name '12' will not do: up to 64 characters, no blanks, none of . = / \\, and not digits "
        "alone"},
       {"name: sheet", "name: ''", "scene.yaml:5:11: name is empty"},
+      {"name: sheet", "name: \"a\\uFFFE\"",
+       "scene.yaml:5:11: the name holds U+FFFE or U+FFFF, which stand for no character; leave them out"},
       {"solver:\n", "  - name: sheet\n    cloth: {mesh: cloth.obj}\nsolver:\n",
        "scene.yaml:13:11: a second body named 'sheet'; the first is at scene.yaml:5:11"},
       {"solver:\n", "  - colour: \"#ffffff\"\nsolver:\n",

@@ -1,4 +1,8 @@
 // billow study from outside: runs, resumption, failures, and what is made of them.
+#include <sys/stat.h>
+
+#include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "render/image/png.h"
@@ -145,6 +149,127 @@ TEST_F(StudyCommand, MakesAPageThatABrowserOpens) {
   for (const char* part : {"limits.svg", "<td>0.5</td>", "results.csv", "billow study study.yaml --only 2"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(html.find("http"), std::string::npos) << "asks the network";
+}
+
+TEST_F(StudyCommand, SharesItsRunsWithOthers) {
+  folder_.write("study.yaml", test::edited(plot_study, "[0.5, 1]", "[0.5, 1, 2, 3]"));
+  std::vector<std::future<ToolResult>> others;
+  std::vector<test::TemporaryFolder> homes(3);
+  const std::string file = (folder_.path() / "study.yaml").string();
+  for (const test::TemporaryFolder& home : homes)
+    others.push_back(std::async(std::launch::async, [&] {
+      return test::run_tool({"study", file, "-o", made("").string()}, home.path());
+    }));
+  std::string said;
+  for (std::future<ToolResult>& other : others) {
+    const ToolResult result = other.get();
+    EXPECT_EQ(result.status, 0) << result.errors;
+    said += result.errors;
+  }
+  for (const char* run : {"run 1, 0.5: done in", "run 2, 1: done in", "run 3, 2: done in", "run 4, 3: done in"}) {
+    EXPECT_NE(said.find(run), std::string::npos) << said;
+    EXPECT_EQ(said.find(run), said.rfind(run)) << said;
+  }
+  EXPECT_EQ(study({"--list"}).output, "   1  done      0.5\n   2  done      1\n   3  done      2\n   4  done      3\n");
+}
+
+// Repeats look for no signal before they are through.
+TEST_F(StudyCommand, EndsItsRunsWhenItIsInterrupted) {
+  std::string text = test::edited(plot_study, "render: false", "render: false, repeats: 1");
+  folder_.write("study.yaml", test::edited(text, "duration: 0.2", "duration: 30000, solver.step: 0.0001, strip: none"));
+  const ToolResult result =
+      test::run_tool({"study", "study.yaml", "-o", "made"}, folder_.path(), 0.1, made("runs/001-0.5/log.txt"));
+  EXPECT_EQ(result.status, 130) << result.errors;
+  EXPECT_FALSE(fs::exists(made("runs/001-0.5/claim")));
+  EXPECT_FALSE(fs::exists(made("runs/001-0.5/result.json")));
+}
+
+TEST_F(StudyCommand, SaysWhichRunsAnotherMachineIsAt) {
+  ASSERT_EQ(study({"--only", "1"}).status, 0);
+  fs::create_directories(made("runs/002-1"));
+  folder_.write("made/runs/002-1/claim", "host: render07\nprocess: 12\nsince: 2026-01-02 03:04:05 UTC\nspace: x\n");
+  EXPECT_EQ(study({"--list"}).output, "   1  done      0.5\n   2  running   1\n");
+}
+
+TEST_F(StudyCommand, SaysWhatIsInAResultsPlace) {
+  ASSERT_EQ(study().status, 0);
+  const fs::path result = made("runs/002-1/result.json");
+  fs::remove(result);
+  fs::create_directory(result);
+  const std::string file = "made/runs/002-1/result.json: ";
+  for (const std::string option : {"--collect", "--list", "--overwrite"}) {
+    const ToolResult refused = study({option});
+    EXPECT_EQ(refused.status, 4) << option;
+    EXPECT_NE(refused.errors.find(file + "this is a folder, not a file; move it away or remove it"), std::string::npos)
+        << refused.errors;
+  }
+  fs::remove(result);
+  ASSERT_EQ(mkfifo(result.c_str(), 0600), 0);
+  EXPECT_EQ(study().errors,
+            file + "this is not a regular file; move it away or remove it, and the run is done again\n");
+}
+
+TEST_F(StudyCommand, DoesARunWithADamagedResultAgain) {
+  ASSERT_EQ(study().status, 0);
+  const std::string whole = test::read_text(made("runs/002-1/result.json"));
+  for (const std::string& bytes : {whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("\xff"),
+                                   test::edited(whole, "\"status\": \"done\"", "\"status\": \"gone\"")}) {
+    folder_.write("made/runs/002-1/result.json", bytes);
+    const ToolResult again = study();
+    EXPECT_EQ(again.status, 0);
+    EXPECT_NE(again.errors.find("warning: run 2, 1: its result.json is damaged and counts as none; it is done again"),
+              std::string::npos)
+        << again.errors;
+    EXPECT_EQ(test::read_text(made("runs/002-1/result.json")), whole);
+  }
+}
+
+TEST_F(StudyCommand, SaysWhichRunsPictureLacksWhat) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.1, spectrum: {step: 0.05, at: 0.1}}
+axes:
+  - {name: lambda, key: solver.filter.lambda, values: [0.5, 1]}
+pictures:
+  - {name: strips, kind: strips, times: [0, 0.1]}
+  - {name: curves, kind: spectrum_curves}
+)");
+  ASSERT_EQ(study().status, 0);
+  const std::string again = "; do the run again with 'billow study study.yaml -o made --only 2'\n";
+  folder_.write("made/runs/002-1/film/spectrum.csv", "frequency,power\n0,1\n1,x\n");
+  fs::remove(made("runs/002-1/film/velocity_strip.png"));
+  ToolResult result = study();
+  EXPECT_EQ(result.status, 1);
+  for (const std::string& line :
+       {"'strips' is missing: of run 2, made/runs/002-1/film/velocity_strip.png is missing" + again,
+        "'curves' is missing: of run 2, made/runs/002-1/film/spectrum.csv:3: '1,x' is no row of a spectrum; the file "
+        "is "
+        "damaged" +
+            again})
+    EXPECT_NE(result.errors.find("warning: the picture " + line), std::string::npos) << result.errors;
+  fs::remove_all(made("runs/002-1/film"));
+  result = study();
+  EXPECT_NE(result.errors.find("of run 2, made/runs/002-1/film is missing" + again), std::string::npos)
+      << result.errors;
+  fs::remove_all(made("runs"));
+  result = study({"--collect"});
+  EXPECT_NE(result.errors.find("none of its runs is finished: run 1 is missing, run 2 is missing"), std::string::npos)
+      << result.errors;
+}
+
+TEST_F(StudyCommand, SaysWhatItsSceneLacksForAPicture) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.1, strip: none}
+pictures: [{name: strips, kind: strips, times: [0]}, {name: curves, kind: spectrum_curves}]
+)");
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 1);
+  for (const std::string key : {"strip", "spectrum"})
+    EXPECT_NE(result.errors.find("is missing: it needs a " + key +
+                                 ", and the scene of run 1 has none; give it one with '" + key + ": {}'\n"),
+              std::string::npos)
+        << result.errors;
 }
 
 TEST_F(StudyCommand, LeavesOtherFoldersAlone) {

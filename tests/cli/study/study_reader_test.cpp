@@ -100,6 +100,24 @@ TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
             "study.yaml:9:11: 'k0' is a column of the results; call the axis differently");
 }
 
+// Two pictures, or a picture and the study itself, would write the same file.
+TEST_F(StudyReader, GivesEveryFileOneWriter) {
+  EXPECT_EQ(
+      error("name: limits", "name: Results"),
+      "study.yaml:15:12: a picture named 'Results' would replace the study's own results.csv; call it differently");
+  const std::string second = "kind: plot, x: lambda, y: step}\n  - {kind: plot, name: ";
+  EXPECT_EQ(error("kind: plot, x: lambda", second + "limits, x: lambda"),
+            "study.yaml:16:24: a second picture named 'limits'; the first is at " +
+                (folder_.path() / "study.yaml:15:12").string());
+  EXPECT_EQ(error("kind: plot, x: lambda", second + "Limits, x: lambda"),
+            "study.yaml:16:24: a second picture named 'Limits'; the first is at " +
+                (folder_.path() / "study.yaml:15:12").string() + "; some file systems take 'limits' for the same");
+  EXPECT_EQ(read("billow_study: 1\nscene: scene.yaml\npictures: [{name: results, kind: frames, times: [0]}]\n")
+                .pictures.front()
+                .name,
+            "results");
+}
+
 // A fault in what a study changes is reported in the study, not in the scene.
 TEST_F(StudyReader, PlacesFaultsOfARunInTheStudy) {
   const cli::Study study = read(test::edited(base_study, "solver.method: imex", "solver.method: imx"));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "base/error.h"
 #include "render/image/png.h"
@@ -33,7 +34,7 @@ TEST(WritePlot, WritesPictureVectorsAndData) {
   EXPECT_EQ(image.width, 1280);
   EXPECT_NE(test::read_text(folder.path() / "time.svg").find("</svg>"), std::string::npos);
   EXPECT_EQ(test::read_text(folder.path() / "time.csv"),
-            "curve,x,y\n\"FB Euler\",1,0.5\n\"FB Euler\",10,5\n\"FB Euler\",100,50\n\"a \\ $weird 'name', "
+            "curve,x,y\nFB Euler,1,0.5\nFB Euler,10,5\nFB Euler,100,50\n\"a \\ $weird 'name', "
             "%s\",1,1\n\"a \\ $weird 'name', %s\",100,30\n");
 }
 
@@ -61,6 +62,28 @@ TEST(WritePlot, RunsNothingThatANameSays) {
   EXPECT_THAT(svg, testing::HasSubstr("it's \\  &amp; &lt;b> $x @y {z}_2 %s \""));
 }
 
+// Its own quotes at either end, digits behind what is written by its number, and what XML cannot hold.
+TEST(WritePlot, ShowsATextAsItIs) {
+  const test::TemporaryFolder folder;
+  for (const auto& [text, shown] :
+       std::vector<std::pair<std::string, std::string>>{{"'a", "'a"},
+                                                        {"''", "''"},
+                                                        {"\"\"", "\"\""},
+                                                        {"+1 -12 λ0", "+1 -12 λ0"},
+                                                        {"a ]]> b", "a ]]&gt; b"},
+                                                        {"\uFFFE\x01\xff", "\uFFFD\uFFFD\uFFFD"},
+                                                        {"{/Symbol a}_2^3", "{/Symbol a}_2^3"}}) {
+    SCOPED_TRACE(text);
+    Plot plot = two_curves();
+    plot.title = plot.x_label = plot.y_label = plot.curves[0].name = text;
+    write_plot(plot, folder.path() / "text");
+    const std::string svg = test::read_text(folder.path() / "text.svg");
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = svg.find(">" + shown + "</text>", at)) != std::string::npos; ++at) ++count;
+    EXPECT_EQ(count, 4u);
+  }
+}
+
 // A value that is not a number parts the curve in two.
 TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
   const test::TemporaryFolder folder;
@@ -69,7 +92,7 @@ TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
   write_plot(whole, folder.path() / "whole");
   write_plot(gap, folder.path() / "gap");
   EXPECT_NE(test::read_text(folder.path() / "gap.svg"), test::read_text(folder.path() / "whole.svg"));
-  EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\n\"c\",0,1\n\"c\",1,2\n\"c\",3,2\n\"c\",4,1\n");
+  EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\nc,0,1\nc,1,2\nc,3,2\nc,4,1\n");
 }
 
 /// The pictures' and the table's text of a plot.
@@ -93,8 +116,8 @@ TEST(WritePlot, LeavesOutWhatALogarithmDoesNotHave) {
   const std::vector<double> y = {4, 5, 6}, lacking_y = {0, -1, 6};
   const Written gap = written(logarithms_of(x, {NAN, NAN, 6}));
   for (const auto& [plot, rows] :
-       {std::pair{logarithms_of(x, lacking_y), "\"lacking\",1,0\n\"lacking\",10,-1\n\"lacking\",100,6\n"},
-        {logarithms_of(lacking_x, y), "\"lacking\",-1,4\n\"lacking\",0,5\n\"lacking\",100,6\n"}}) {
+       {std::pair{logarithms_of(x, lacking_y), "lacking,1,0\nlacking,10,-1\nlacking,100,6\n"},
+        {logarithms_of(lacking_x, y), "lacking,-1,4\nlacking,0,5\nlacking,100,6\n"}}) {
     const Written picture = written(plot);
     EXPECT_EQ(picture.svg, gap.svg) << "as if there were no number";
     EXPECT_THAT(picture.csv, testing::EndsWith(rows));
@@ -107,7 +130,7 @@ TEST(WritePlot, DrawsTheOtherCurvesWhereOneHasNoLogarithmAtAll) {
   const Written picture = written(logarithms_of({1, 10, 100}, {0, -1, -2}));
   EXPECT_THAT(picture.svg, testing::HasSubstr(">whole<"));
   EXPECT_THAT(picture.svg, testing::Not(testing::HasSubstr("lacking")));
-  EXPECT_THAT(picture.csv, testing::HasSubstr("\"lacking\",100,-2"));
+  EXPECT_THAT(picture.csv, testing::HasSubstr("lacking,100,-2"));
 }
 
 TEST(WritePlot, RefusesToPlotNothing) {
@@ -117,19 +140,36 @@ TEST(WritePlot, RefusesToPlotNothing) {
   EXPECT_THROW(write_plot(plot, folder.path() / "time"), OutputError);
 }
 
-TEST(WritePlot, SaysWhatToInstall) {
-  const test::TemporaryFolder folder;
+// What write_plot throws where programs are looked for in `folder` alone.
+std::string fault_with_programs_of(const fs::path& folder) {
   const std::string path = std::getenv("PATH");
-  setenv("PATH", folder.path().c_str(), 1);
+  setenv("PATH", folder.c_str(), 1);
   std::string message;
   try {
-    write_plot(two_curves(), folder.path() / "time");
+    write_plot(two_curves(), folder / "time");
   } catch (const OutputError& error) {
     message = error.what();
   }
   setenv("PATH", path.c_str(), 1);
-  EXPECT_NE(message.find("install the package gnuplot-nox"), std::string::npos) << message;
-  EXPECT_FALSE(fs::exists(folder.path() / "time.png"));
+  EXPECT_FALSE(fs::exists(folder / "time.png"));
+  return message;
+}
+
+TEST(WritePlot, SaysWhatToInstall) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(fault_with_programs_of(folder.path()), testing::HasSubstr("install the package gnuplot-nox"));
+}
+
+// gnuplot repeats the command before it says what is wrong with it.
+TEST(WritePlot, SaysWhatGnuplotFindsWrong) {
+  const test::TemporaryFolder folder;
+  const fs::path program = folder.path() / "gnuplot";
+  std::ofstream(program)
+      << "#!/bin/sh\nprintf \"\\ngnuplot> set key title 'line 1: x'\\n   ^\\n     line 0: unknown key "
+         "option\\n\\n\" >&2\nexit 1\n";
+  fs::permissions(program, fs::perms::owner_all);
+  EXPECT_THAT(fault_with_programs_of(folder.path()),
+              testing::EndsWith("time.png cannot be plotted: gnuplot says: unknown key option"));
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+// A study on its way: its runs, and where they and their results are.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/study/study.h"
+#include "cli/study/study_results.h"
+
+namespace billow::cli {
+
+/// Runs are told by their numbers, from 1.
+struct StudyPlan {
+  Study study;
+  std::filesystem::path folder;
+  std::vector<StudyRun> runs;
+  std::vector<std::string> hash;  // per run, what its result must carry to count; see read_hash()
+
+  const StudyRun& run(int number) const { return runs[static_cast<std::size_t>(number) - 1]; }
+  std::filesystem::path folder_of(int number) const { return run_folder(folder, study, run(number)); }
+  std::filesystem::path log_of(int number) const { return folder_of(number) / "log.txt"; }
+  std::filesystem::path claim_of(int number) const { return folder_of(number) / "claim"; }
+  /// "run 3, fb_euler, 0.5"
+  std::string name_of(int number) const;
+  /// Throws InputError as read_result.
+  RunResult result_of(int number) const;
+};
+
+/// `folder` may be empty: out/ and the study's name. Throws InputError as read_study.
+StudyPlan make_plan(const std::filesystem::path& study, const std::filesystem::path& folder);
+
+/// Reads a run's scene, which its hash is of. Throws InputError where the scene is at fault.
+void read_hash(StudyPlan& plan, int number);
+
+/// Results count as they stand here; a run that failed or was not done does not.
+bool is_finished(const RunResult& result);
+
+}  // namespace billow::cli

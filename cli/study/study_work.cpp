@@ -1,0 +1,137 @@
+// Claims, children, and results between them.
+#include "cli/study/study_work.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "base/atomic_file.h"
+#include "base/claim.h"
+#include "base/regular_file.h"
+#include "cli/run/output_folder.h"
+#include "cli/study/study_jobs.h"
+#include "cli/study/study_run.h"
+
+namespace billow::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The last line that a run left in its log: what it died of.
+std::string last_words(const fs::path& log) {
+  constexpr std::size_t enough = 4 << 10;
+  std::string text = read_tail(log, enough);
+  text.erase(std::min(text.find_last_not_of('\n') + 1, text.size()));
+  const std::size_t begin = text.rfind('\n') + 1;  // npos + 1 is 0
+  return text.empty() ? "it left no message" : text.substr(begin);
+}
+
+std::string described(int status) {
+  if (status <= 128) return fmt::format("exit status {}", status);
+  const char* name = sigabbrev_np(status - 128);
+  return fmt::format("ended by SIG{}", name ? name : std::to_string(status - 128));
+}
+
+std::string described(const ClaimHolder& holder) {
+  if (holder.host.empty()) return "another process";
+  return fmt::format("process {} on {}, since {}", holder.process, holder.host, holder.since);
+}
+
+/// The runs of one process among several.
+class SharedRuns : public JobKeeper {
+ public:
+  SharedRuns(const StudyPlan& plan, const std::vector<DueRun>& due) : plan_(plan), total_(due.size()) {
+    for (const DueRun& run : due) before_[run.number] = run.before;
+  }
+
+  Turn turn_of(int number) override {
+    make_folder(plan_.folder_of(number));
+    std::variant<Claim, ClaimHolder> taken = take_claim(plan_.claim_of(number));
+    if (const auto* holder = std::get_if<ClaimHolder>(&taken)) {
+      holder_.insert_or_assign(number, *holder);
+      return Turn::later;
+    }
+    // What another process has done since this one began is not done again, not even when it has failed.
+    const bool is_new = result_stamp(plan_.folder_of(number)) != before_[number];
+    if (is_new && plan_.result_of(number).status != RunStatus::missing) {
+      report(number, "by another process");
+      return Turn::past;
+    }
+    claim_.insert_or_assign(number, std::move(std::get<Claim>(taken)));
+    remove_strays(plan_.folder_of(number));
+    remove_result(plan_.folder_of(number));
+    return Turn::now;
+  }
+
+  JobCommand command_of(int number) override {
+    return {{"billow", "study", plan_.study.file.string(), "-o", plan_.folder.string(), "--perform",
+             std::to_string(number)},
+            plan_.log_of(number)};
+  }
+
+  bool goes_on(int number) override {
+    if (claim_.at(number).renew()) return true;
+    claim_.erase(number);
+    return false;
+  }
+
+  void ended(const JobEnd& end) override {
+    if (plan_.result_of(end.number).status == RunStatus::missing) write_failure(end);
+    report(end.number, fmt::format("in {:.1f} s", end.seconds));
+    claim_.erase(end.number);
+  }
+
+  void waits(const std::vector<int>& others) override {
+    for (const int number : others) {
+      const auto holder = holder_.find(number);
+      if (holder != holder_.end() && said_.emplace(number, holder->second.host, holder->second.process).second)
+        say_waiting(number, holder->second);
+    }
+  }
+
+ private:
+  void write_failure(const JobEnd& end) const {
+    RunResult result;
+    result.status = RunStatus::failed;
+    result.hash = plan_.hash[static_cast<std::size_t>(end.number) - 1];
+    result.command = command_line_of(end.number);
+    result.message = fmt::format("{}: {}", described(end.status), last_words(plan_.log_of(end.number)));
+    write_result(plan_.folder_of(end.number), result);
+  }
+  std::string command_line_of(int number) const { return cli::command_of(plan_.study, plan_.run(number)); }
+
+  void report(int number, const std::string& how) {
+    fmt::print(stderr, "[{}/{}] {}: {} {}\n", ++ended_, total_, plan_.name_of(number),
+               name(plan_.result_of(number).status), how);
+  }
+
+  void say_waiting(int number, const ClaimHolder& holder) const {
+    fmt::print(stderr, "waiting for {}: {} is at it\n", plan_.name_of(number), described(holder));
+    if (!holder.is_near)
+      fmt::print(stderr,
+                 "  if that machine is gone, the run is taken over {} s after its last sign of life; at once when you "
+                 "remove {}\n",
+                 Claim::dead_after.count(), plan_.claim_of(number).string());
+  }
+
+  const StudyPlan& plan_;
+  std::size_t total_, ended_ = 0;
+  std::map<int, ResultStamp> before_;
+  std::map<int, Claim> claim_;         // on what this process is at
+  std::map<int, ClaimHolder> holder_;  // of what others are at
+  std::set<std::tuple<int, std::string, long>> said_;
+};
+
+}  // namespace
+
+void do_runs(const StudyPlan& plan, const std::vector<DueRun>& due, int jobs) {
+  SharedRuns runs(plan, due);
+  std::vector<int> numbers;
+  for (const DueRun& run : due) numbers.push_back(run.number);
+  run_jobs(numbers, jobs, runs);
+}
+
+}  // namespace billow::cli
