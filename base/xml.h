@@ -6,12 +6,13 @@
 
 namespace billow {
 
-/// `text` with U+FFFD for whatever an XML 1.0 document must not hold in any form: bytes that are no UTF-8, control
-/// characters other than tab and line ends, U+FFFE and U+FFFF. Its markup is left as it is.
+/// `text` with U+FFFD for whatever XML or HTML must not hold in any form, nor pictures can show: bytes that are no
+/// UTF-8, control characters other than tab and line ends, and Unicode's noncharacters, such as U+FFFE. Its markup is
+/// left as it is.
 std::string xml_characters(std::string_view text);
 
-/// `text` as XML, SVG and HTML show it, within an element or a quoted attribute: only characters that XML may hold, and
-/// & < > " ' escaped.
+/// `text` as XML, SVG and HTML show it, within an element or a quoted attribute: the characters that they may hold,
+/// with & < > " ' escaped.
 std::string xml_escape(std::string_view text);
 
 }  // namespace billow

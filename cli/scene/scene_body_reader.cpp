@@ -41,7 +41,7 @@ void check_name(const std::string& name, const std::string& where) {
                                name.substr(0, max_name_length), max_name_length));
   // Caches are called so, and a collection of VTP files names them in XML.
   if (xml_characters(name) != name)
-    fail_at(where, "the name holds U+FFFE or U+FFFF, which stand for no character; leave them out");
+    fail_at(where, "the name holds a control character, or one that stands for none, such as U+FFFE; leave it out");
 }
 
 void read_look(MapReader& map, const std::filesystem::path& folder, Look& look) {

@@ -4,8 +4,11 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
+
+#include "base/xml.h"
 
 namespace billow::render {
 
@@ -33,6 +36,14 @@ std::vector<std::uint32_t> words_of(const Image& image, int stride) {
   return words;
 }
 
+// What cairo takes, all on one line.
+std::string one_line(const std::string& text) {
+  std::string line = xml_characters(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return line;
+}
+
 }  // namespace
 
 Canvas::Canvas(int width, int height, double scale)
@@ -54,14 +65,14 @@ void Canvas::set_font(double size, bool bold) {
 
 double Canvas::text_width(const std::string& text) {
   cairo_text_extents_t extents;
-  cairo_text_extents(pen_, text.c_str(), &extents);
+  cairo_text_extents(pen_, one_line(text).c_str(), &extents);
   return extents.x_advance;
 }
 
 void Canvas::write(const std::string& text, double x, double baseline, double align, double ink) {
   cairo_set_source_rgb(pen_, ink, ink, ink);
   cairo_move_to(pen_, x - align * text_width(text), baseline);
-  cairo_show_text(pen_, text.c_str());
+  cairo_show_text(pen_, one_line(text).c_str());
 }
 
 void Canvas::fill_rectangle(double x, double y, double width, double height, double grey) {

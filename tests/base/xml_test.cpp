@@ -12,10 +12,12 @@ TEST(XmlEscape, LeavesNothingThatIsReadAsMarkup) {
 }
 
 TEST(XmlCharacters, AreThoseThatADocumentMayHold) {
-  EXPECT_EQ(xml_characters("tab\t, lines\n\r, λ, \u0085, \U0001F41F, \uFFFD"),
-            "tab\t, lines\n\r, λ, \u0085, \U0001F41F, \uFFFD");
+  const std::string fine = "tab\t, lines\n\r, \u00A0λ\u2028\uFDCF\uFDF0, \U0001F41F, \U0010FFFD, \uFFFD";
+  EXPECT_EQ(xml_characters(fine), fine);
   EXPECT_EQ(xml_characters(std::string_view("\0\x01\x1f", 3)), "\uFFFD\uFFFD\uFFFD");
-  EXPECT_EQ(xml_characters("\uFFFE \uFFFF"), "\uFFFD \uFFFD");
+  EXPECT_EQ(xml_characters("\x7f\u0080\u009F"), "\uFFFD\uFFFD\uFFFD");
+  EXPECT_EQ(xml_characters("\uFFFE \uFFFF \uFDD0 \uFDEF \U0001FFFE \U0010FFFF"),
+            "\uFFFD \uFFFD \uFFFD \uFFFD \uFFFD \uFFFD");
   // No UTF-8: a byte alone, an overlong form, a surrogate, past the end, and cut short.
   EXPECT_EQ(xml_characters("\xff"), "\uFFFD");
   EXPECT_EQ(xml_characters("\xc0\xaf"), "\uFFFD\uFFFD");

@@ -231,7 +231,8 @@ TEST(SceneFaults, Bodies) {
        "alone"},
       {"name: sheet", "name: ''", "scene.yaml:5:11: name is empty"},
       {"name: sheet", "name: \"a\\uFFFE\"",
-       "scene.yaml:5:11: the name holds U+FFFE or U+FFFF, which stand for no character; leave them out"},
+       "scene.yaml:5:11: the name holds a control character, or one that stands for none, such as U+FFFE; leave it "
+       "out"},
       {"solver:\n", "  - name: sheet\n    cloth: {mesh: cloth.obj}\nsolver:\n",
        "scene.yaml:13:11: a second body named 'sheet'; the first is at scene.yaml:5:11"},
       {"solver:\n", "  - colour: \"#ffffff\"\nsolver:\n",

@@ -82,6 +82,18 @@ TEST(Sheet, KeepsCrowdedPanelsApart) {
   EXPECT_EQ(crowded.width, 28 + 384 + 90 + 28);
 }
 
+// Cairo refuses bytes that are no UTF-8, and Unicode's noncharacters.
+TEST(Sheet, ShowsAnyText) {
+  const auto with_title = [](const std::string& text) {
+    Sheet sheet{text, text, {}, 0.0, 0.0, 0, {}};
+    sheet.rows.push_back({text, {{ramp(5, 5), 50, 50, true, text}}, {}, false});
+    return draw_sheet(sheet).pixels;
+  };
+  for (const char* text : {"\uFFFE", "\uFDD0", "\xff", "\x01"}) EXPECT_EQ(with_title(text), with_title("\uFFFD"));
+  EXPECT_EQ(with_title("a\nb"), with_title("a b"));
+  EXPECT_NE(with_title("a b"), with_title("ab"));
+}
+
 TEST(Sheet, RefusesWhatCannotBeShown) {
   Sheet sheet = timed_sheet({0.0, 1.0});
   sheet.end = sheet.begin;
