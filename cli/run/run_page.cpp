@@ -9,6 +9,7 @@
 
 #include "cli/page/page_file.h"
 #include "cli/page/report_page.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 
@@ -125,7 +126,7 @@ std::string player(const RunPage& page) {
                         {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start,
                                               page.series.last_frame())},
                         {"plots", plots(page, axis)},
-                        {"data", json_for_script(data.dump())}});
+                        {"data", json_for_script(json_text(data))}});
 }
 
 std::string viewer(const RunPage& page) {

@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "cli/run/incident_text.h"
 #include "cli/scene/filter_text.h"
+#include "cli/text/json_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -151,7 +152,7 @@ Json bounds_record(const render::RunBounds& bounds) {
 std::string begun_record(const Run& run, const Json& bounds) {
   Json json = begun(run.scene, run.command, "running");
   if (!bounds.is_null()) json["bounds"] = bounds;
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 namespace {
@@ -193,12 +194,12 @@ void write_finished_record(const std::filesystem::path& file, const Run& run, co
                            const FilmReport& report, const Progress& progress,
                            const nlohmann::ordered_json& inherited) {
   AtomicFile output(file);
-  const std::string head = finished(run, survey, report, progress, inherited).dump(1);
+  const std::string head = json_text(finished(run, survey, report, progress, inherited), 1);
   output.append(std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
   output.append(",\n \"frames\": [");
   const char* separator = "\n  ";
   for (const FrameRecord& frame : report.frames) {
-    output.append(separator + frame_record(frame).dump());
+    output.append(separator + json_text(frame_record(frame)));
     separator = ",\n  ";
   }
   output.append("\n ]\n}\n");

@@ -9,11 +9,14 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "cli/text/utf8.h"
 
 namespace billow::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t longest = 40;  // [characters] that a message quotes
 
 void check_regular(const fs::path& file) {
   std::error_code error;
@@ -24,38 +27,13 @@ void check_regular(const fs::path& file) {
   if (status.type() != fs::file_type::regular) throw InputError(file.string() + ": this is not a regular file");
 }
 
-bool is_continuation(unsigned char byte) { return (byte & 0xC0) == 0x80; }
-
-// Bytes of the UTF-8 sequence that begins with `lead`, 0 if none does.
-int sequence_length(unsigned char lead) {
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead < 0xE0) return 2;
-  if (lead >= 0xE0 && lead < 0xF0) return 3;
-  if (lead >= 0xF0 && lead < 0xF5) return 4;
-  return 0;
-}
-
-// The second byte rules out overlong forms, surrogates and everything past U+10FFFF.
-bool second_byte_fits(unsigned char lead, unsigned char second) {
-  if (lead == 0xE0) return second >= 0xA0;
-  if (lead == 0xED) return second < 0xA0;
-  if (lead == 0xF0) return second >= 0x90;
-  if (lead == 0xF4) return second < 0x90;
-  return true;
-}
-
 bool is_control(unsigned char byte) {
   return (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
 }
 
 // Bytes of the text character at the front of `bytes`, 0 if there is none.
 int character_length(std::string_view bytes) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-  const int length = is_control(byte(0)) ? 0 : sequence_length(byte(0));
-  if (static_cast<std::size_t>(length) > bytes.size()) return 0;
-  for (int i = 1; i < length; ++i)
-    if (!is_continuation(byte(i))) return 0;
-  return length > 1 && !second_byte_fits(byte(0), byte(1)) ? 0 : length;
+  return is_control(static_cast<unsigned char>(bytes[0])) ? 0 : first_character(bytes).bytes;
 }
 
 }  // namespace
@@ -100,13 +78,25 @@ std::size_t character_count(std::string_view text) {
 }
 
 std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 40;
   if (character_count(text) <= longest) return std::string(text);
   std::size_t end = 0;
   for (std::size_t characters = 0; characters < longest - 3; ++characters) do
       ++end;
-    while (is_continuation(static_cast<unsigned char>(text[end])));
+    while (is_continuation(text[end]));
   return std::string(text.substr(0, end)) + "...";
+}
+
+std::string shortened_around(std::string_view text, std::size_t place) {
+  std::size_t begin = std::min(place, text.size()), end = begin;
+  for (std::size_t k = 0; k < longest / 2; ++k) {
+    if (begin > 0) do
+        --begin;
+      while (begin > 0 && is_continuation(text[begin]));
+    if (end < text.size()) do
+        ++end;
+      while (end < text.size() && is_continuation(text[end]));
+  }
+  return fmt::format("{}{}{}", begin > 0 ? "…" : "", text.substr(begin, end - begin), end < text.size() ? "…" : "");
 }
 
 }  // namespace billow::cli
