@@ -13,7 +13,8 @@
 namespace billow::render {
 
 /// Reads an 8-bit RGB or RGBA image (palette, grey and 16-bit files are converted).
-/// Throws InputError on a file that is missing, damaged, or larger than 8192 x 8192.
+/// Throws InputError on a file that is missing, no regular file, damaged, or larger than 8192 x 8192. Takes no more
+/// memory than its pixels do: what else is in the file is skipped.
 Image read_png(const std::filesystem::path& file);
 
 /// The same of the bytes of a file; `name` stands for it in messages.

@@ -18,6 +18,10 @@ namespace billow::render {
 namespace {
 
 constexpr unsigned max_size = 8192;  // [pixel] either way
+// A progressive image keeps its coefficients until its last scan: two bytes for each of three colours, and some more.
+constexpr long max_jpeg_bytes = 512L << 20;
+constexpr int max_scans = 100;  // of a progressive image; each goes over the whole image, however little it changes
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 28;
 
 struct JpegErrors {
   jpeg_error_mgr manager;  // first: libjpeg hands out its address
@@ -36,17 +40,28 @@ void on_message(j_common_ptr jpeg, int level) {
   if (level < 0) on_error(jpeg);
 }
 
+// Asked many times a scan.
+void check_scans(j_common_ptr jpeg) {
+  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= max_scans) return;
+  auto* errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  *fmt::format_to_n(errors->message, sizeof errors->message - 1, "it has more than {} scans", max_scans).out = '\0';
+  std::longjmp(errors->jump, 1);
+}
+
 struct Jpeg {
   Jpeg() {
     decoder.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = on_error;
     errors.manager.emit_message = on_message;
     jpeg_create_decompress(&decoder);
+    decoder.mem->max_memory_to_use = max_jpeg_bytes;
+    decoder.progress = &progress;
   }
   ~Jpeg() { jpeg_destroy_decompress(&decoder); }
   Jpeg(const Jpeg&) = delete;
 
   jpeg_decompress_struct decoder;
+  jpeg_progress_mgr progress = {check_scans, 0, 0, 0, 0};
   JpegErrors errors;
 };
 
@@ -91,6 +106,10 @@ Image decode_texture(std::string_view bytes, const std::string& name) {
 }
 
 Image read_texture(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) > max_file_bytes && !error)
+    throw InputError(
+        fmt::format("{}: larger than {} MiB; save the image smaller", file.string(), max_file_bytes >> 20));
   std::ifstream in(file, std::ios::binary);
   char head[3] = {};
   in.read(head, sizeof head);
