@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <system_error>
 
@@ -99,27 +98,17 @@ std::string complaint(const ProgramResult& result) {
   return fmt::format("gnuplot ended with status {}", result.status);
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
-
-// gnuplot writes to a temporary file; it is renamed only when it is whole.
+// gnuplot writes to a temporary file of ours; it is renamed only when it is whole.
 void draw(const Plot& plot, const std::string& terminal, const fs::path& file) {
-  fs::path temporary = file;
-  temporary += ".drawing";
+  AtomicFile output(file);
   const std::string text =
-      script(plot, fmt::format("set terminal {}\nset output {}\n", terminal, quoted(temporary.string())));
+      script(plot, fmt::format("set terminal {}\nset output {}\n", terminal, quoted(output.temporary().string())));
   if (text.empty()) throw OutputError(fmt::format("{}: there is no point to plot", file.string()));
   const ProgramResult result = run_program({"gnuplot", "-d"}, text, patience);
-  const std::string bytes = bytes_of(temporary);
   std::error_code error;
-  fs::remove(temporary, error);
-  if (!result.found || result.timed_out || result.status != 0 || bytes.empty())
+  if (!result.found || result.timed_out || result.status != 0 || fs::file_size(output.temporary(), error) == 0)
     throw OutputError(fmt::format("{} cannot be plotted: {}", file.string(), complaint(result)));
-  write_file_atomically(file, bytes);
+  output.commit();
 }
 
 std::string csv_field(const std::string& text) {
