@@ -18,6 +18,7 @@
 #include "cli/study/study_pictures.h"
 #include "cli/study/study_results.h"
 #include "cli/study/study_run.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -32,7 +33,8 @@ struct Plan {
   std::vector<StudyRun> runs;
   std::vector<std::string> hash;  // per run
 
-  fs::path folder_of(const StudyRun& run) const { return run_folder(folder, study, run); }
+  fs::path folder_within(const StudyRun& run) const { return run_folder("", study, run); }
+  fs::path folder_of(const StudyRun& run) const { return folder / folder_within(run); }
   fs::path log_of(int number) const { return folder_of(runs[number - 1]) / "log.txt"; }
   RunResult result_of(const StudyRun& run) const { return read_result(folder_of(run), hash[run.number - 1]); }
 };
@@ -80,7 +82,7 @@ std::vector<RunResult> results_of(const Plan& plan) {
 
 int list_runs(const Plan& plan) {
   for (const StudyRun& run : plan.runs)
-    fmt::print("{:>4}  {:<9} {}\n", run.number, name(plan.result_of(run).status), label_of(plan.study, run));
+    print_line("{:>4}  {:<9} {}", run.number, name(plan.result_of(run).status), label_of(plan.study, run));
   return exit_done;
 }
 
@@ -88,11 +90,12 @@ int do_one(const Plan& plan, int number) {
   const StudyRun& run = run_numbered(plan, number);
   check_folder(plan.folder);
   catch_interrupts();
-  make_folder(plan.folder_of(run));
+  make_folder(plan.folder);
+  make_folder_within(plan.folder, plan.folder_within(run));
   const RunResult result = perform_run(plan.study, run, plan.folder_of(run));
   if (interrupted_by() != 0) return 128 + interrupted_by();
-  fmt::print(stderr, "run {}, {}: {}{}\n", number, label_of(plan.study, run), name(result.status),
-             result.message.empty() ? "" : "; " + result.message);
+  say_line("run {}, {}: {}{}", number, label_of(plan.study, run), name(result.status),
+           result.message.empty() ? "" : "; " + result.message);
   return exit_done;
 }
 
@@ -129,20 +132,22 @@ void run_missing(const Plan& plan, const StudyOptions& options) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = options.jobs > 0 ? options.jobs : plan.study.measures.repeats > 0 ? 1 : cores;
   for (const int number : numbers) {
-    make_folder(plan.folder_of(plan.runs[number - 1]));
+    make_folder_within(plan.folder, plan.folder_within(plan.runs[number - 1]));
     std::error_code error;
     fs::remove(plan.folder_of(plan.runs[number - 1]) / "result.json", error);
   }
-  fmt::print(stderr, "{}: {} runs, {} of them finished already\n", plan.study.file.string(), plan.runs.size(),
-             plan.runs.size() - numbers.size());
+  say_line("{}: {} runs, {} of them finished already", plan.study.file.string(), plan.runs.size(),
+           plan.runs.size() - numbers.size());
   std::size_t ended = 0;
+  std::vector<std::string> command = {"billow", "study", plan.study.file.string(), "-o", plan.folder.string()};
+  if (options.untrusted) command.push_back("--untrusted");
   run_jobs(
-      plan.study.file, plan.folder, numbers, jobs, [&](int number) { return plan.log_of(number); },
+      command, numbers, jobs, [&](int number) { return plan.log_of(number); },
       [&](const JobEnd& end) {
         settle(plan, end);
         const StudyRun& run = plan.runs[end.number - 1];
-        fmt::print(stderr, "[{}/{}] run {}, {}: {} in {:.1f} s\n", ++ended, numbers.size(), end.number,
-                   label_of(plan.study, run), name(plan.result_of(run).status), end.seconds);
+        say_line("[{}/{}] run {}, {}: {} in {:.1f} s", ++ended, numbers.size(), end.number, label_of(plan.study, run),
+                 name(plan.result_of(run).status), end.seconds);
       });
 }
 
@@ -151,16 +156,16 @@ int assemble(const Plan& plan) {
   StudyContents contents{plan.study, plan.folder, plan.runs, results, {}};
   contents.faults = make_pictures(contents);
   for (const auto& [picture, fault] : contents.faults)
-    fmt::print(stderr, "warning: the picture '{}' is missing: {}\n", picture, fault);
+    say_line("warning: the picture '{}' is missing: {}", picture, fault);
   write_file_atomically(plan.folder / "results.csv", results_csv(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / "study.json", study_json(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / "index.html", study_page(contents));
   const auto failed = std::count_if(results.begin(), results.end(), [](const RunResult& r) {
     return r.status == RunStatus::failed || r.status == RunStatus::missing;
   });
-  fmt::print(stderr, "wrote {} pictures, results.csv, study.json and index.html to {}{}\n",
-             plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
-             failed ? fmt::format("; {} runs are missing or failed", failed) : "");
+  say_line("wrote {} pictures, results.csv, study.json and index.html to {}{}",
+           plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
+           failed ? fmt::format("; {} runs are missing or failed", failed) : "");
   return failed || !contents.faults.empty() ? exit_internal_fault : exit_done;
 }
 

@@ -28,8 +28,11 @@ std::optional<render::View> view_named(std::string_view name) {
 }
 
 std::string record_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
+  std::error_code error;
+  std::ifstream stream;
+  if (fs::is_regular_file(file, error)) stream.open(file, std::ios::binary);
+  if (!stream.is_open())
+    throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

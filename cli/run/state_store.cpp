@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/npz.h"
 #include "cli/run/schedule.h"
+#include "cli/text/json_text.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -133,7 +134,7 @@ void StateStore::write_record(const Record& record) const {
                      {"finished", record.finished},
                      {"divergence", record.divergence},
                      {"facts", json_of(record.facts)}};
-  write_file_atomically(folder_ / record_name, json.dump(1) + "\n");
+  write_file_atomically(folder_ / record_name, json_text(json, 1) + "\n");
 }
 
 bool StateStore::has(double moment) const {
@@ -243,6 +244,7 @@ bool is_state(const fs::path& file) {
 
 void remove_states(const fs::path& folder) {
   std::error_code error;
+  if (fs::is_symlink(fs::symlink_status(folder, error))) return;
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.is_regular_file(error) && is_state(entry.path())) found.push_back(entry.path());

@@ -33,7 +33,10 @@ class SpawnSetup {
   explicit SpawnSetup(const std::string& log) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    // A new file: what another has put there, perhaps a link to somewhere else, is not written to.
+    unlink(log.c_str());
+    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW,
+                                     0666);
     posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
     posix_spawnattr_init(&attributes_);
     // A group of its own: Ctrl-C at the terminal reaches this process alone, which hands it on once.
@@ -102,8 +105,8 @@ class Children {
 
 }  // namespace
 
-void run_jobs(const std::filesystem::path& study, const std::filesystem::path& folder, const std::vector<int>& numbers,
-              int jobs, const std::function<std::filesystem::path(int)>& log_of,
+void run_jobs(const std::vector<std::string>& command, const std::vector<int>& numbers, int jobs,
+              const std::function<std::filesystem::path(int)>& log_of,
               const std::function<void(const JobEnd&)>& ended) {
   Children children;
   std::size_t next = 0;
@@ -114,9 +117,9 @@ void run_jobs(const std::filesystem::path& study, const std::filesystem::path& f
     if (stop && !handed_on) children.signal_all(interrupted_by()), handed_on = true;
     while (!stop && next < numbers.size() && static_cast<int>(children.count()) < jobs) {
       const int number = numbers[next++];
-      children.start(number,
-                     {"billow", "study", study.string(), "-o", folder.string(), "--only", std::to_string(number)},
-                     log_of(number).string());
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--only", std::to_string(number)});
+      children.start(number, words, log_of(number).string());
     }
     for (const JobEnd& end : children.wait_a_moment()) ended(end);
   }

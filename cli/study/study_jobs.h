@@ -3,9 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
-
-#include "cli/study/study.h"
 
 namespace billow::cli {
 
@@ -16,11 +15,11 @@ struct JobEnd {
   double seconds = 0.0;
 };
 
-/// Runs `billow study FILE -o FOLDER --only N` for every N in `numbers`, at most `jobs` at a time, each with its output
-/// in `log_of(N)`. `ended` is called as each ends. A signal to this process is handed on to the children, and no more
-/// are started. Throws OutputError when a log cannot be written, std::system_error when no process can be started.
-void run_jobs(const std::filesystem::path& study, const std::filesystem::path& folder, const std::vector<int>& numbers,
-              int jobs, const std::function<std::filesystem::path(int)>& log_of,
-              const std::function<void(const JobEnd&)>& ended);
+/// Runs `command`, a `billow study …`, with `--only N` for every N in `numbers`, at most `jobs` at a time, each with
+/// its output in `log_of(N)`, a new file in the place of what was there. `ended` is called as each ends. A signal to
+/// this process is handed on to the children, and no more are started. Throws OutputError when a log cannot be written,
+/// std::system_error when no process can be started.
+void run_jobs(const std::vector<std::string>& command, const std::vector<int>& numbers, int jobs,
+              const std::function<std::filesystem::path(int)>& log_of, const std::function<void(const JobEnd&)>& ended);
 
 }  // namespace billow::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "cli/text/json_text.h"
 #include "cli/text/number_text.h"
 #include "cli/text/version.h"
 
@@ -139,12 +140,13 @@ fs::path run_folder(const fs::path& folder, const Study& study, const StudyRun& 
 void write_result(const fs::path& run_folder, const RunResult& result) {
   const Json json = {{"status", name(result.status)}, {"hash", result.hash},   {"message", result.message},
                      {"command", result.command},     {"scene", result.scene}, {"values", values_of(result)}};
-  write_file_atomically(run_folder / "result.json", json.dump(1) + "\n");
+  write_file_atomically(run_folder / "result.json", json_text(json, 1) + "\n");
 }
 
 RunResult read_result(const fs::path& run_folder, const std::string& hash) {
+  std::error_code error;
+  if (!fs::is_regular_file(run_folder / "result.json", error)) return {};
   std::ifstream file(run_folder / "result.json");
-  if (!file) return {};
   try {
     RunResult result = parsed(Json::parse(file));
     if (result.hash == hash) return result;
@@ -180,7 +182,7 @@ std::string study_json(const Study& study, const std::vector<StudyRun>& runs, co
   for (std::size_t r = 0; r < runs.size(); ++r) json["runs"].push_back(run_json(study, runs[r], results[r]));
   for (const PictureSpec& picture : study.pictures)
     json["pictures"].push_back({{"name", picture.name}, {"title", picture.title}, {"file", picture.name + ".png"}});
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace billow::cli
