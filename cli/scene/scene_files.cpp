@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file_trust.h"
 #include "cli/scene/scene_parts.h"
 #include "sim/import/mesh_import.h"
 
@@ -12,6 +13,7 @@ namespace fs = std::filesystem;
 
 void check_file(const fs::path& file, std::string_view kind, const std::string& where) {
   if (file.empty()) return;
+  located(where, [&] { require_trusted(file); });
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   const std::string shown = file.lexically_normal().string();

@@ -9,7 +9,11 @@
 
 namespace billow::cli {
 
-/// Throws InputError at `where` unless there is a regular file; `kind` is what messages call it. An empty path is none.
+/// That the textures of a scene may have in all: a GiB of memory.
+inline constexpr std::size_t most_texture_pixels = std::size_t{1} << 28;
+
+/// Throws InputError at `where` unless there is a regular file that is trusted (base/file_trust.h); `kind` is what
+/// messages call it. An empty path is none.
 void check_file(const std::filesystem::path& file, std::string_view kind, const std::string& where);
 
 /// Reads the textures of what is drawn with `mesh` and leaves the mesh with the materials that are used, numbered as

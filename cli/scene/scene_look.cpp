@@ -61,7 +61,7 @@ class MeshFinishes {
     finish.opacity = material.colour(3);
     finish.cutoff = material.cutoff;
     if (!material.texture_bytes.empty())
-      read(material, "(in the file)", [&] { finish.texture = render::decode_texture(material.texture_bytes, "it"); });
+      read(material, "(in the file)", [&] { finish.texture = decoded(material.texture_bytes); });
     else if (!material.texture.empty())
       read(material, material.texture, [&] { finish.texture = texture_file(material.texture); });
     if (!material.alpha_texture.empty())
@@ -83,7 +83,16 @@ class MeshFinishes {
   render::Image texture_file(const std::string& name) {
     const std::string bytes = folder_.read(name);
     if (watch_) watch_(folder_.path() / name);
-    return render::decode_texture(bytes, "it");
+    return decoded(bytes);
+  }
+
+  // Any number of materials may each name a large texture.
+  render::Image decoded(std::string_view bytes) {
+    render::Image image = render::decode_texture(bytes, "it");
+    pixels_ += std::size_t(image.width) * image.height;
+    if (pixels_ > most_texture_pixels)
+      throw InputError(fmt::format("it and those before have more than {} pixels in all", most_texture_pixels));
+    return image;
   }
 
   // What cannot be read is told and left out: the shape does not depend on it.
@@ -100,6 +109,7 @@ class MeshFinishes {
   sim::Mesh& mesh_;
   sim::MeshFolder folder_;
   const FileWatch& watch_;
+  std::size_t pixels_ = 0;  // of all textures until now
 };
 
 }  // namespace

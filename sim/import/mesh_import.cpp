@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/file_trust.h"
 #include "base/limited_process.h"
 #include "sim/import/assimp_reader.h"
 #include "sim/import/gltf_document.h"
@@ -77,6 +78,16 @@ PolygonSoup read_soup(const fs::path& file, const ImportLimits& limits) {
   }
 }
 
+// The same, where the file has to be a mesh before anything of it is shown.
+PolygonSoup read_unquoted_soup(const fs::path& file, const ImportLimits& limits) try {
+  return read_soup(file, limits);
+} catch (const InputError&) {
+  throw InputError(fmt::format(
+      "it is damaged or no such mesh, and as it is outside of the scene's folder, nothing of it is shown here; 'billow "
+      "mesh {}' says why",
+      file.lexically_normal().string()));
+}
+
 ProcessLimits process_limits(const fs::path& file, const ImportLimits& limits) {
   constexpr std::size_t bytes_per_vertex = 24 + 8 + 12 + 32 + 40;  // position, uv, colour, some groups; the layout
   constexpr std::size_t bytes_per_face = 3 * sizeof(Face);         // two of them of the layout; textures
@@ -92,8 +103,9 @@ ProcessLimits process_limits(const fs::path& file, const ImportLimits& limits) {
 
 Mesh import_mesh(const fs::path& file, const ImportLimits& limits) try {
   check_file(file, limits);
+  const auto& read = may_be_quoted(file) ? read_soup : read_unquoted_soup;
   return weld(
-      decode_soup(reply_of_child([&] { return encode_soup(read_soup(file, limits)); }, process_limits(file, limits))));
+      decode_soup(reply_of_child([&] { return encode_soup(read(file, limits)); }, process_limits(file, limits))));
 } catch (const InputError& error) {
   throw InputError(fmt::format("cannot read mesh {}: {}", file.string(), error.what()));
 }
