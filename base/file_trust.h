@@ -22,6 +22,9 @@ void trust_folder_of(const std::filesystem::path& named, Outside outside);
 /// same whether or not there is such a file.
 void require_trusted(const std::filesystem::path& file);
 
+/// Whether `path` is `folder` or in it or below; both as the system resolves them.
+bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// Whether messages may show what stands in `file`: it is the named one or below its folder, or nothing was named.
 bool may_be_quoted(const std::filesystem::path& file);
 

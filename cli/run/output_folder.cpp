@@ -85,7 +85,7 @@ void remove_earlier_run(const fs::path& folder) {
   std::error_code error;
   remove_all_frames(folder);
   remove_caches(folder / "caches");
-  remove_states(folder / StateStore::folder_name);
+  if (const fs::path states = folder / StateStore::folder_name; !is_link(states)) remove_states(states);
   for (const std::string_view name : all_words<RunFile>())
     if (const fs::path file = folder / name;
         fs::is_regular_file(file, error) && !is_link(folder / *fs::path(name).begin()))

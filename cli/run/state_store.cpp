@@ -244,7 +244,6 @@ bool is_state(const fs::path& file) {
 
 void remove_states(const fs::path& folder) {
   std::error_code error;
-  if (fs::is_symlink(fs::symlink_status(folder, error))) return;
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.is_regular_file(error) && is_state(entry.path())) found.push_back(entry.path());

@@ -70,22 +70,6 @@ std::vector<ColliderDraft> read_colliders(MapReader& scene, const std::filesyste
   return drafts;
 }
 
-/// Of all that is drawn.
-class TexturePixels {
- public:
-  void add(const Look& look, const std::string& mesh_where) {
-    for (const render::Finish& finish : look.finish)
-      pixels_ += std::size_t(finish.texture.width) * finish.texture.height;
-    if (pixels_ > most_texture_pixels)
-      fail_at(look.texture_file.empty() ? mesh_where : look.texture_where,
-              fmt::format("with these, the scene's textures have more than {} pixels in all; use smaller ones",
-                          most_texture_pixels));
-  }
-
- private:
-  std::size_t pixels_ = 0;
-};
-
 std::vector<std::string> names_of(const std::vector<BodyDraft>& drafts) {
   std::vector<std::string> names;
   for (const BodyDraft& draft : drafts) names.push_back(draft.spec.name);
@@ -118,15 +102,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.spectrum = read_spectrum(map, scene.duration, drafts);
   settle_contact(drafts, !colliders.empty() || render.ground);
   scene.effective = to_yaml(*record);
-  TexturePixels pixels;
-  for (BodyDraft& draft : drafts) {
-    scene.bodies.push_back(load_body(std::move(draft), watch));
-    pixels.add(scene.bodies.back(), scene.bodies.back().mesh_where);
-  }
-  for (ColliderDraft& draft : colliders) {
-    scene.colliders.push_back(load_collider(std::move(draft), watch));
-    pixels.add(scene.colliders.back(), scene.colliders.back().mesh_where);
-  }
+  TextureBudget budget;
+  for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch, budget));
+  for (ColliderDraft& draft : colliders) scene.colliders.push_back(load_collider(std::move(draft), watch, budget));
   scene.contact = contact_of(scene, render.ground);
   take_fingerprints(record, scene);
   return scene;

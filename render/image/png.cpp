@@ -229,6 +229,13 @@ Image decode_png(std::string_view bytes, const std::string& name) {
   if (!stream) throw std::bad_alloc();
   return read(stream, name);
 }
+
+std::size_t claimed_png_pixels(std::string_view bytes) {
+  const auto* header = reinterpret_cast<const png_byte*>(bytes.data());
+  if (bytes.size() < 24 || png_sig_cmp(header, 0, 8) != 0) return 0;
+  return std::size_t{big_endian(header + 16)} * big_endian(header + 20);
+}
+
 void write_png(const std::filesystem::path& file, const Image& image) {
   write_png_rows(file, image.width, image.height, image.channels, rows_of(image));
 }

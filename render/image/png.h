@@ -20,6 +20,9 @@ Image read_png(const std::filesystem::path& file);
 /// The same of the bytes of a file; `name` stands for it in messages.
 Image decode_png(std::string_view bytes, const std::string& name);
 
+/// How many pixels the header of such bytes claims; 0 where they have none.
+std::size_t claimed_png_pixels(std::string_view bytes);
+
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.
 void write_png(const std::filesystem::path& file, const Image& image);

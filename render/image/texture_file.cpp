@@ -73,12 +73,18 @@ void run(Jpeg& jpeg, const std::string& name, const Calls& calls) {
   calls();
 }
 
-Image decode_jpeg(std::string_view bytes, const std::string& name) {
-  Jpeg jpeg;
+void read_header(Jpeg& jpeg, std::string_view bytes, const std::string& name) {
   run(jpeg, name, [&] {
     jpeg_mem_src(&jpeg.decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&jpeg.decoder, TRUE);
   });
+}
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
+
+Image decode_jpeg(std::string_view bytes, const std::string& name) {
+  Jpeg jpeg;
+  read_header(jpeg, bytes, name);
   if (jpeg.decoder.image_width > max_size || jpeg.decoder.image_height > max_size)
     throw InputError(fmt::format("{}: the image has {} x {} pixels; at most {} x {} are read", name,
                                  jpeg.decoder.image_width, jpeg.decoder.image_height, max_size, max_size));
@@ -100,28 +106,32 @@ Image decode_jpeg(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 Image decode_texture(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes, name);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, name);
   if (bytes.starts_with("\x89PNG") || bytes.empty()) return decode_png(bytes, name);
   throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", name));
 }
 
+std::size_t claimed_pixels(std::string_view bytes) {
+  if (!is_jpeg(bytes)) return claimed_png_pixels(bytes);
+  try {
+    Jpeg jpeg;
+    read_header(jpeg, bytes, "it");
+    return std::size_t{jpeg.decoder.image_width} * jpeg.decoder.image_height;
+  } catch (const InputError&) {
+    return 0;  // decoding it fails at once, too
+  }
+}
+
 Image read_texture(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::file_size(file, error) > max_file_bytes && !error)
+  // What is missing, empty or no regular file read_png has words for.
+  if (!std::filesystem::is_regular_file(file, error)) return read_png(file);
+  if (std::filesystem::file_size(file, error) > max_file_bytes)
     throw InputError(
         fmt::format("{}: larger than {} MiB; save the image smaller", file.string(), max_file_bytes >> 20));
   std::ifstream in(file, std::ios::binary);
-  char head[3] = {};
-  in.read(head, sizeof head);
-  const std::string_view begin(head, static_cast<std::size_t>(in.gcount()));
-  if (begin != "\xff\xd8\xff") {
-    // What is missing or empty read_png has words for.
-    if (!begin.empty() && !begin.starts_with("\x89PN"))
-      throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", file.string()));
-    return read_png(file);
-  }
-  const std::string rest{std::istreambuf_iterator<char>(in), {}};
-  return decode_jpeg(std::string(head, sizeof head) + rest, file.string());
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return bytes.empty() ? read_png(file) : decode_texture(bytes, file.string());
 }
 
 bool has_alpha(const Image& image) {

@@ -17,6 +17,9 @@ Image read_texture(const std::filesystem::path& file);
 /// The same of the bytes of a file; `name` stands for it in messages.
 Image decode_texture(std::string_view bytes, const std::string& name);
 
+/// How many pixels the header of such bytes claims; 0 where they have none.
+std::size_t claimed_pixels(std::string_view bytes);
+
 /// Whether any pixel lets something behind it show.
 bool has_alpha(const Image& image);
 

@@ -1,7 +1,6 @@
 // Paths that lead out of a folder, and files that are read whole.
 #include "sim/import/mesh_folder.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/file_trust.h"
 
 namespace billow::sim {
 
@@ -19,14 +19,6 @@ MeshFolder::MeshFolder(const fs::path& mesh_file, std::uintmax_t max_file_bytes)
     : folder_(fs::canonical(fs::absolute(mesh_file).parent_path())),
       mesh_(fs::weakly_canonical(fs::absolute(mesh_file))),
       max_file_bytes_(max_file_bytes) {}
-
-namespace {
-
-bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-}  // namespace
 
 MeshFolder::Answer MeshFolder::ask(const fs::path& file) const {
   std::error_code error;

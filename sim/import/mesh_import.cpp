@@ -43,6 +43,7 @@ std::string lower_extension(const fs::path& file) {
 void check_file(const fs::path& file, const ImportLimits& limits) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::none) throw InputError(fmt::format("it cannot be read: {}", error.message()));
   if (!fs::exists(status)) throw InputError("there is no such file; check the path");
   if (fs::is_directory(status)) throw InputError("it is a folder; name a file in it");
   if (!fs::is_regular_file(status)) throw InputError("it is not a plain file; name a mesh file");
@@ -83,8 +84,8 @@ PolygonSoup read_unquoted_soup(const fs::path& file, const ImportLimits& limits)
   return read_soup(file, limits);
 } catch (const InputError&) {
   throw InputError(fmt::format(
-      "it is damaged or no such mesh, and as it is outside of the scene's folder, nothing of it is shown here; 'billow "
-      "mesh {}' says why",
+      "it is damaged or no such mesh; 'billow mesh {}' says why: here nothing is shown of files outside of the named "
+      "one's folder",
       file.lexically_normal().string()));
 }
 

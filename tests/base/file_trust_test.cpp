@@ -50,10 +50,20 @@ TEST_F(FileTrust, RefusesWhatLeadsOutOfIt) {
   trust_folder_of(path("job/scene.yaml"), Outside::refused);
   for (const char* name : {"other/grid.obj", "other/none.obj", "job/deep/../../other/grid.obj", "jobs/grid.obj",
                            "other/back.obj", "../../../../etc/passwd"})
-    EXPECT_THAT(refusal(name), HasSubstr("is outside of the folder")) << name;
-  for (const char* name : {"job/away.obj", "job/way/grid.obj", "job/way/none.obj", "job/round"})
-    EXPECT_THAT(refusal(name), HasSubstr("is a link that leads out of the folder")) << name;
-  EXPECT_THAT(refusal("other/grid.obj"), HasSubstr("with --untrusted nothing else is read"));
+    EXPECT_THAT(refusal(name), HasSubstr("is outside, and with --untrusted nothing outside of")) << name;
+  for (const char* name : {"job/away.obj", "job/way/grid.obj", "job/way/none.obj"})
+    EXPECT_THAT(refusal(name), HasSubstr("is a link that leads out of its folder, and with --untrusted")) << name;
+  EXPECT_THAT(refusal("job/round"), HasSubstr("cannot be followed (Too many levels of symbolic links)"));
+  EXPECT_THAT(refusal("job/" + std::string(5000, 'a')), HasSubstr("cannot be followed (File name too long)"));
+}
+
+TEST_F(FileTrust, TellsLinksFromPathsHoweverTheFolderIsWritten) {
+  for (const char* named : {"job/./scene.yaml", "job/deep/../scene.yaml", "other/../job//scene.yaml"}) {
+    trust_folder_of(path(named), Outside::refused);
+    EXPECT_EQ(refusal("job/grid.obj"), "") << named;
+    EXPECT_THAT(refusal("job/away.obj"), HasSubstr("is a link")) << named;
+    EXPECT_THAT(refusal("other/grid.obj"), HasSubstr("is outside")) << named;
+  }
 }
 
 // It would read another file's folder as its own.

@@ -45,7 +45,7 @@ TEST_F(Untrusted, ScenesReadWhatIsInTheirFolderAlone) {
   for (const char* key : {"bodies.0.cloth.mesh", "bodies.0.texture"}) {
     const ToolResult result = run({"check", "job/scene.yaml", "--untrusted", "-D", std::string(key) + "=../cloth.obj"});
     EXPECT_EQ(result.status, 4);
-    EXPECT_THAT(result.errors, HasSubstr("cloth.obj is outside of the folder"));
+    EXPECT_THAT(result.errors, HasSubstr("cloth.obj is outside, and with --untrusted"));
   }
   EXPECT_EQ(run({"check", "job/scene.yaml", "-D", "bodies.0.cloth.mesh=../cloth.obj"}).status, 0);
 }
@@ -55,7 +55,7 @@ TEST_F(Untrusted, StudiesAndTheirRunsAreHeldToItToo) {
   write("job/study.yaml", study_of("../other/scene.yaml"));
   const ToolResult result = run({"study", "job/study.yaml", "--untrusted", "--list"});
   EXPECT_EQ(result.status, 4);
-  EXPECT_THAT(result.errors, HasSubstr("job/study.yaml:2:8: other/scene.yaml is outside of the folder"));
+  EXPECT_THAT(result.errors, HasSubstr("job/study.yaml:2:8: other/scene.yaml is outside, and with --untrusted"));
 }
 
 TEST_F(Untrusted, AStudyShowsNothingOfAFileThatIsNoScene) {

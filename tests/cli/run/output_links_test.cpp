@@ -71,6 +71,23 @@ TEST_F(OutputLinks, OfFilesAreReplacedByTheFile) {
   expect_untouched();
 }
 
+TEST_F(OutputLinks, OfAStudysLogsAndRunsAreNotFollowed) {
+  folder_.write("study.yaml",
+                "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.1}\nmeasure: {render: false}\n"
+                "pictures: [{name: p, kind: plot, x: k0, y: k0}]\n");
+  const std::vector<std::string> study = {"study", "study.yaml", "-o", "made", "--overwrite"};
+  link("made/runs/001/log.txt", "outside/log.txt");
+  link("made/p.png.drawing", "outside/log.txt");
+  EXPECT_EQ(test::run_tool(study, folder_.path()).status, 0);
+  EXPECT_FALSE(fs::is_symlink(path("made/runs/001/log.txt")));
+  expect_untouched();
+  link("made/runs/001", "outside");
+  const ToolResult result = test::run_tool(study, folder_.path());
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.errors, HasSubstr("made/runs/001 is a link, and nothing is written through it"));
+  expect_untouched();
+}
+
 // The folder that -o names may be a link: the user has named it.
 TEST_F(OutputLinks, MayBeTheNamedFolderItself) {
   fs::create_directory(path("elsewhere"));
