@@ -29,10 +29,11 @@ std::optional<render::View> view_named(std::string_view name) {
 
 std::string record_text(const fs::path& file) {
   std::error_code error;
-  std::ifstream stream;
-  if (fs::is_regular_file(file, error)) stream.open(file, std::ios::binary);
-  if (!stream.is_open())
-    throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
+  const fs::file_status status = fs::status(file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError(fmt::format("{}: this is not a regular file; give the folder of a run", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: there is no such file; give the folder of a run", file.string()));
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

@@ -16,7 +16,7 @@ namespace billow::cli {
 
 namespace {
 
-// Nobody writes longer ones, and muParser's work grows with the square of what is nested.
+// Nobody writes longer ones, and tables and plots show them.
 constexpr std::size_t longest_formula = 1000;
 
 /// Says what is wrong at byte `place` of a formula.

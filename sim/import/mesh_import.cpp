@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <exception>
+#include <new>
 #include <string>
 
 #include <fmt/format.h>
@@ -82,7 +84,9 @@ PolygonSoup read_soup(const fs::path& file, const ImportLimits& limits) {
 // The same, where the file has to be a mesh before anything of it is shown.
 PolygonSoup read_unquoted_soup(const fs::path& file, const ImportLimits& limits) try {
   return read_soup(file, limits);
-} catch (const InputError&) {
+} catch (const std::bad_alloc&) {
+  throw;
+} catch (const std::exception&) {
   throw InputError(fmt::format(
       "it is damaged or no such mesh; 'billow mesh {}' says why: here nothing is shown of files outside of the named "
       "one's folder",
