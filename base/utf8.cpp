@@ -1,14 +1,10 @@
 // The table of well-formed byte sequences: https://www.unicode.org/versions/latest/ch03.pdf, table 3-7.
 #include "base/utf8.h"
 
-#include <cstddef>
-
 namespace billow {
 namespace {
 
-bool is_continuation(unsigned char byte) { return (byte & 0xC0) == 0x80; }
-
-// Bytes of the sequence that begins with `lead`, 0 if none does.
+// Bytes of the UTF-8 sequence that begins with `lead`, 0 if none does.
 int sequence_length(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;
@@ -28,14 +24,19 @@ bool second_byte_fits(unsigned char lead, unsigned char second) {
 
 }  // namespace
 
-int utf8_length(std::string_view bytes) {
-  if (bytes.empty()) return 0;
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+Character first_character(std::string_view bytes) {
+  if (bytes.empty()) return {};
+  const auto byte = [&](int k) { return static_cast<unsigned char>(bytes[static_cast<std::size_t>(k)]); };
   const int length = sequence_length(byte(0));
-  if (static_cast<std::size_t>(length) > bytes.size()) return 0;
-  for (int i = 1; i < length; ++i)
-    if (!is_continuation(byte(i))) return 0;
-  return length > 1 && !second_byte_fits(byte(0), byte(1)) ? 0 : length;
+  if (length == 0 || static_cast<std::size_t>(length) > bytes.size()) return {};
+  if (length == 1) return {byte(0), 1};
+  if (!second_byte_fits(byte(0), byte(1))) return {};
+  char32_t code = byte(0) & (0x7F >> length);
+  for (int k = 1; k < length; ++k) {
+    if (!is_continuation(bytes[static_cast<std::size_t>(k)])) return {};
+    code = code << 6 | (byte(k) & 0x3F);
+  }
+  return {code, length};
 }
 
 }  // namespace billow

@@ -9,14 +9,18 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/file_trust.h"
 #include "base/out_of_memory.h"
 #include "base/standard_streams.h"
 #include "base/suggest.h"
 #include "cli/command/commands.h"
 #include "cli/run/interrupt.h"
 #include "cli/text/command_text.h"
+#include "cli/text/terminal.h"
+#include "cli/text/text_file.h"
 #include "cli/text/version.h"
 
 namespace billow::cli {
@@ -68,12 +72,28 @@ struct Request {
   SheetOptions sheet;
   std::vector<std::string> overrides, metrics;
   std::string frames, caches, pixels;
-  bool overwrite = false, resume = false;
+  bool overwrite = false, resume = false, untrusted = false;
   std::function<int()> command;
 };
 
+// The file that the command is about, and how far what it names is trusted.
+void add_named_file(CLI::App& command, const std::string& name, std::filesystem::path& file, const std::string& help,
+                    Request& request) {
+  command.add_option(name, file, help)->required();
+  command.add_flag("--untrusted", request.untrusted,
+                   "Read no file outside of the folder of " + name + ", links followed");
+}
+
+// What is run once all arguments are read.
+void set_command(Request& r, const std::filesystem::path& named, std::function<int()> command) {
+  r.command = [&r, &named, command = std::move(command)] {
+    trust_folder_of(named, r.untrusted ? Outside::refused : Outside::readable);
+    return command();
+  };
+}
+
 void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request& request) {
-  command.add_option("SCENE", scene, "Scene file (YAML)")->required();
+  add_named_file(command, "SCENE", scene, "Scene file (YAML)", request);
   command.add_option("-D", request.overrides, "Set a scene value: -D solver.step=0.001 (repeatable)")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
@@ -111,7 +131,7 @@ void add_run_options(CLI::App& c, Request& r) {
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
     if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
-    r.command = [&r] { return render_command(r.render); };
+    set_command(r, r.render.scene, [&r] { return render_command(r.render); });
   });
 }
 
@@ -141,16 +161,16 @@ void add_scene_command(CLI::App& app, Request& r, const std::string& name, const
   if (with_json) c.add_flag("--json", r.scene.json, "Print JSON");
   c.final_callback([&r, command] {
     for (const std::string& text : r.overrides) r.scene.overrides.push_back(parse_override(text));
-    r.command = [&r, command] { return command(r.scene); };
+    set_command(r, r.scene.scene, [&r, command] { return command(r.scene); });
   });
 }
 
 void add_mesh(CLI::App& app, Request& r) {
   CLI::App& c =
       *app.add_subcommand("mesh", "Look at a mesh file: counts, size, pieces, borders, what it has and lacks");
-  c.add_option("FILE", r.mesh.mesh, "Mesh file (.obj, .off, .stl, .ply, .gltf or .glb)")->required();
+  add_named_file(c, "FILE", r.mesh.mesh, "Mesh file (.obj, .off, .stl, .ply, .gltf or .glb)", r);
   c.add_flag("--json", r.mesh.json, "Print JSON");
-  c.final_callback([&r] { r.command = [&r] { return mesh_command(r.mesh); }; });
+  c.final_callback([&r] { set_command(r, r.mesh.mesh, [&r] { return mesh_command(r.mesh); }); });
 }
 
 void add_stability(CLI::App& app, Request& r) {
@@ -165,7 +185,7 @@ void add_stability(CLI::App& app, Request& r) {
   c.final_callback([&r] {
     if (!std::isfinite(r.stability.time)) throw CLI::ValidationError("--at", "needs a finite time");
     for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
-    r.command = [&r] { return stability_command(r.stability); };
+    set_command(r, r.stability.scene.scene, [&r] { return stability_command(r.stability); });
   });
 }
 
@@ -179,7 +199,7 @@ void add_filter(CLI::App& app, Request& r) {
       ->type_name("DIR");
   c.final_callback([&r] {
     for (const std::string& text : r.overrides) r.filter.scene.overrides.push_back(parse_override(text));
-    r.command = [&r] { return filter_command(r.filter); };
+    set_command(r, r.filter.scene.scene, [&r] { return filter_command(r.filter); });
   });
 }
 
@@ -233,7 +253,7 @@ void add_compare(CLI::App& app, Request& r) {
 
 void add_study(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("study", "Run a scene over axes of variation; make pictures, tables and a page");
-  c.add_option("STUDY", r.study.study, "Study file (YAML)")->required();
+  add_named_file(c, "STUDY", r.study.study, "Study file (YAML)", r);
   c.add_option("-o,--output", r.study.output, "Folder to write to (default: out/ and the study's name)")
       ->type_name("DIR");
   CLI::Option* list = c.add_flag("--list", r.study.list, "Print the runs and whether they are finished");
@@ -248,7 +268,10 @@ void add_study(CLI::App& app, Request& r) {
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
-  c.final_callback([&r] { r.command = [&r] { return study_command(r.study); }; });
+  c.final_callback([&r] {
+    r.study.untrusted = r.untrusted;
+    set_command(r, r.study.study, [&r] { return study_command(r.study); });
+  });
 }
 
 // Of what is made of a run's frames.
@@ -289,6 +312,11 @@ void add_sheet(CLI::App& app, Request& r) {
 void add_commands(CLI::App& app, Request& r) {
   app.set_version_flag("--version", fmt::format("billow {}", version()));
   app.require_subcommand(1);
+  // Its messages quote arguments, line ends and all.
+  app.failure_message([](const CLI::App* command, const CLI::Error& error) {
+    return CLI::FailureMessage::simple(command,
+                                       CLI::Error(error.get_name(), printable(error.what()), error.get_exit_code()));
+  });
   app.set_help_all_flag("--help-all", "Help of every command");
   add_render(app, r);
   add_simulate(app, r);
@@ -319,11 +347,11 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   std::vector<std::string_view> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
   if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return std::nullopt;
-  return fmt::format("unknown command '{}'{}", argv[1], suggestion(argv[1], known, "commands are"));
+  return fmt::format("unknown command '{}'{}", shortened(argv[1]), suggestion(argv[1], known, "commands are"));
 }
 
-int report(const char* message, int status) {
-  std::fputs((std::string(message) + "\n").c_str(), stderr);  // fputs: a closed stderr must not become another error
+int report(std::string_view message, int status) {
+  say_message(message);
   return status;
 }
 
@@ -336,14 +364,14 @@ int run_command(const std::function<int()>& command) {
     return report(error.what(), exit_diverged);
   } catch (const OutputError& error) {
     return report(error.what(), exit_not_written);
-  } catch (const std::system_error& error) {  // what fmt::print throws
+  } catch (const std::system_error& error) {  // what print_text throws
     return report(error.what(), exit_not_written);
   } catch (const ResourceError& error) {
     return report(error.what(), exit_internal_fault);
   } catch (const std::bad_alloc&) {  // of a size that no machine has
     return report("out of memory", exit_internal_fault);
   } catch (const std::exception& error) {
-    return report((std::string("internal fault: ") + error.what()).c_str(), exit_internal_fault);
+    return report(std::string("internal fault: ") + error.what(), exit_internal_fault);
   }
 }
 
@@ -365,13 +393,15 @@ int run(int argc, char** argv) {
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   add_commands(app, request);
-  if (const auto fault = unknown_command(app, argc, argv)) return report(fault->c_str(), exit_usage);
+  if (const auto fault = unknown_command(app, argc, argv)) return report(*fault, exit_usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    app.exit(error);
-    return asked_for_help ? status_of_output(exit_done) : exit_usage;
+    std::ostringstream help, fault;
+    const bool asked_for_help = app.exit(error, help, fault) == static_cast<int>(CLI::ExitCodes::Success);
+    say_text(fault.str());
+    return asked_for_help ? status_of_output(run_command([&] { return print_text(help.str()), exit_done; }))
+                          : exit_usage;
   }
   request.render.command = typed_command(argc, argv);
   return status_of_output(run_command(request.command));

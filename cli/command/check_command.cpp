@@ -1,6 +1,4 @@
 // billow check: everything short of simulating; prints the effective scene.
-#include <fmt/format.h>
-
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/watched_scene.h"
@@ -10,6 +8,7 @@
 #include "cli/scene/mesh_warnings.h"
 #include "cli/scene/simulation.h"
 #include "cli/scene/step_warnings.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -21,17 +20,17 @@ int check_command(const SceneOptions& options) {
   progress.phase("limit");
   const StepChoice choice = simulation.choose_step();
   progress.end();
-  fmt::print("{}", scene.effective);
+  print_text(scene.effective);
   const sim::Structure& structure = simulation.structure();
-  fmt::print(stderr, "{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})\n",
-             scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
-             structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
-  for (const std::string& line : mesh_lines(scene)) fmt::print(stderr, "{}\n", line);
-  for (const std::string& line : material_lines(scene, structure)) fmt::print(stderr, "{}\n", line);
-  for (const std::string& line : level_lines(simulation)) fmt::print(stderr, "{}\n", line);
-  for (const std::string& line : contact_lines(scene)) fmt::print(stderr, "{}\n", line);
-  for (const std::string& warning : mesh_warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
-  for (const std::string& warning : step_warnings(structure, choice)) fmt::print(stderr, "warning: {}\n", warning);
+  say_line("{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})",
+           scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
+           structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
+  for (const std::string& line : mesh_lines(scene)) say_message(line);
+  for (const std::string& line : material_lines(scene, structure)) say_message(line);
+  for (const std::string& line : level_lines(simulation)) say_message(line);
+  for (const std::string& line : contact_lines(scene)) say_message(line);
+  for (const std::string& warning : mesh_warnings(scene)) say_line("warning: {}", warning);
+  for (const std::string& warning : step_warnings(structure, choice)) say_line("warning: {}", warning);
   return exit_done;
 }
 

@@ -64,6 +64,7 @@ struct StudyOptions {
   bool collect = false;          // assemble what is there, without running
   bool overwrite = false;        // run again what is finished
   int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
+  bool untrusted = false;        // runs read no file outside of the study's folder either
 };
 int study_command(const StudyOptions& options);
 

@@ -11,6 +11,7 @@
 #include "cli/command/compare_report.h"
 #include "cli/command/compared_images.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -42,26 +43,26 @@ Json as_json(const ComparedPair& pair) {
   return json;
 }
 
-void print_line(const ComparedPair& pair) {
+void print_row(const ComparedPair& pair) {
   const std::string reason = pair.reason.empty() ? "" : fmt::format(" (by its own tolerance: {})", pair.reason);
   const std::string verdict =
       (pair.verdict == Verdict::same ? "same" : fmt::format("{}: {}", name_of(pair.verdict), pair.why)) + reason;
   if (!pair.comparison) {
-    fmt::print("{:<32} {:<66}{}\n", pair.name, "", verdict);
+    print_line("{:<32} {:<66}{}", pair.name, "", verdict);
     return;
   }
   const render::Comparison& c = *pair.comparison;
-  fmt::print("{:<32} {:>4} {:>9.4f} {:>9.4f} {:>8.2f} {:>9.6f} {:>8.4f} % {:>8} {}\n", pair.name, c.max, c.mean, c.rmse,
+  print_line("{:<32} {:>4} {:>9.4f} {:>9.4f} {:>8.2f} {:>9.6f} {:>8.4f} % {:>8} {}", pair.name, c.max, c.mean, c.rmse,
              c.psnr, c.ssim, 100.0 * c.share_over, c.flip ? fmt::format("{:.5f}", *c.flip) : "", verdict);
 }
 
 void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
-  fmt::print("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}\n", "image", "max", "mean", "rmse", "psnr dB", "ssim",
+  print_line("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}", "image", "max", "mean", "rmse", "psnr dB", "ssim",
              fmt::format("over {}/255", options.tolerance.what.threshold), options.tolerance.what.flip ? "flip" : "");
-  for (const ComparedPair& pair : pairs) print_line(pair);
+  for (const ComparedPair& pair : pairs) print_row(pair);
   if (pairs.size() == 1) return;
   const auto same = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.verdict == Verdict::same; });
-  fmt::print("{} of {} the same\n", same, pairs.size());
+  print_line("{} of {} the same", same, pairs.size());
 }
 
 }  // namespace
@@ -78,10 +79,10 @@ int compare_command(const CompareOptions& options) {
   if (options.json) {
     Json json = {{"same", all(Verdict::same)}, {"accepted", accepted}, {"images", Json::array()}};
     for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
-    fmt::print("{}\n", json_text(json, 2));
+    print_json(json_text(json, 2));
   } else {
     print_table(pairs, options);
-    for (const std::string& name : accepted) fmt::print("accepted {}\n", name);
+    for (const std::string& name : accepted) print_line("accepted {}", name);
   }
   if (all(Verdict::unreadable)) throw InputError("no pair of images could be read");
   return all(Verdict::same) ? exit_done : exit_images_differ;

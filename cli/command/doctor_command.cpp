@@ -8,6 +8,7 @@
 
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/text/terminal.h"
 #include "cli/text/version.h"
 #include "render/frame/mesh_renderer.h"
 
@@ -15,7 +16,7 @@ namespace billow::cli {
 
 namespace {
 
-void line(std::string_view what, std::string_view value) { fmt::print("{:<12} {}\n", what, value); }
+void line(std::string_view what, std::string_view value) { print_line("{:<12} {}", what, value); }
 
 // The renderer starts with nothing to draw: enough to know that GL works.
 std::string gl_description() {

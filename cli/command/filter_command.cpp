@@ -12,6 +12,7 @@
 #include "cli/scene/filter_text.h"
 #include "cli/scene/simulation.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 #include "render/paper/plot.h"
 #include "sim/filter/response.h"
 
@@ -73,7 +74,7 @@ std::vector<Response> responses(const Scene& scene, const Simulation& simulation
       const sim::Filter filter(structure, known.options);
       list.push_back({known.name, sim::wave_responses(structure, body, &filter, waves)});
     } catch (const InputError& error) {
-      fmt::print(stderr, "{}: {}\n", known.name, error.what());
+      say_line("{}: {}", known.name, error.what());
     }
   }
   return list;
@@ -121,16 +122,16 @@ Json as_json(const Simulation& simulation, const std::vector<Response>& list) {
 void print_table(const std::vector<Response>& list) {
   constexpr int columns = 6;
   const auto at = [](int column) { return static_cast<std::size_t>((2 * column + 1) * waves / (2 * columns)); };
-  fmt::print("{:<44}", "share of a wave's force that passes, at 1/s");
-  for (int c = 0; c < columns; ++c) fmt::print("{:>9.3g}", list.front().wave.at(at(c)).frequency);
-  fmt::print("\n");
+  std::string head = fmt::format("{:<44}", "share of a wave's force that passes, at 1/s");
+  for (int c = 0; c < columns; ++c) head += fmt::format("{:>9.3g}", list.front().wave.at(at(c)).frequency);
+  print_line("{}", head);
   for (const Response& response : list) {
     // Widths are in characters, and some of ours take two bytes.
     const auto two_bytes = std::count_if(response.name.begin(), response.name.end(),
                                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
-    fmt::print("{:<{}}", response.name, 44 + two_bytes);
-    for (int c = 0; c < columns; ++c) fmt::print("{:>9.3f}", response.wave.at(at(c)).response);
-    fmt::print("\n");
+    std::string line = fmt::format("{:<{}}", response.name, 44 + two_bytes);
+    for (int c = 0; c < columns; ++c) line += fmt::format("{:>9.3f}", response.wave.at(at(c)).response);
+    print_line("{}", line);
   }
 }
 
@@ -146,14 +147,14 @@ int filter_command(const FilterCommandOptions& options) {
   progress.phase("responses");
   const std::vector<Response> list = responses(scene, simulation, body);
   progress.end();
-  if (options.scene.json) return fmt::print("{}\n", json_text(as_json(simulation, list), 1)), exit_done;
-  for (const std::string& line : level_lines(simulation)) fmt::print("{}\n", line);
+  if (options.scene.json) return print_json(json_text(as_json(simulation, list), 1)), exit_done;
+  for (const std::string& line : level_lines(simulation)) print_line("{}", line);
   print_table(list);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / (scene.file.stem().string() + "-filter") : options.output;
   make_folder(folder);
   render::write_plot(plot_of(list, body), folder / "response");
-  fmt::print("wrote response.png, .svg and .csv to {}\n", folder.string());
+  print_line("wrote response.png, .svg and .csv to {}", folder.string());
   return exit_done;
 }
 

@@ -7,6 +7,7 @@
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 #include "sim/import/mesh_import.h"
 #include "sim/mesh/mesh_report.h"
 
@@ -85,18 +86,18 @@ Json as_json(const sim::Mesh& mesh, const sim::MeshReport& report) {
   return json;
 }
 
-void print_line(std::string_view what, const std::string& text) { fmt::print("  {:<10} {}\n", what, text); }
+void print_row(std::string_view what, const std::string& text) { print_line("  {:<10} {}", what, text); }
 
 void print_size(const sim::MeshReport& report) {
   const Eigen::Vector3d size = report.box.sizes();
   const std::string_view unit = sim::likely_unit(report.box);
-  print_line("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {} to {}{}", size.x(), size.y(), size.z(),
-                                 text_of(report.box.min()), text_of(report.box.max()),
-                                 unit.empty() ? "" : fmt::format("; most likely in {}", unit)));
-  print_line("edges", fmt::format("{}, {:.4g} to {:.4g} m, {:.4g} m in the mean", report.edges, report.shortest_edge,
-                                  report.longest_edge, report.mean_edge));
-  print_line("surface", report.closed() ? fmt::format("{:.6g} m², closed, {:.6g} m³ inside", report.area, report.volume)
-                                        : fmt::format("{:.6g} m², open", report.area));
+  print_row("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {} to {}{}", size.x(), size.y(), size.z(),
+                                text_of(report.box.min()), text_of(report.box.max()),
+                                unit.empty() ? "" : fmt::format("; most likely in {}", unit)));
+  print_row("edges", fmt::format("{}, {:.4g} to {:.4g} m, {:.4g} m in the mean", report.edges, report.shortest_edge,
+                                 report.longest_edge, report.mean_edge));
+  print_row("surface", report.closed() ? fmt::format("{:.6g} m², closed, {:.6g} m³ inside", report.area, report.volume)
+                                       : fmt::format("{:.6g} m², open", report.area));
 }
 
 void print_parts(const sim::MeshReport& report) {
@@ -104,21 +105,21 @@ void print_parts(const sim::MeshReport& report) {
   for (const sim::MeshReport::Piece& piece : report.pieces)
     if (parts.size() < shown_parts)
       parts.push_back(fmt::format("{} vertices around {}", piece.vertices, text_of(piece.middle)));
-  print_line("pieces", fmt::format("{}: {}{}", report.pieces.size(), fmt::join(parts, "; "),
-                                   report.pieces.size() > shown_parts ? "; …" : ""));
+  print_row("pieces", fmt::format("{}: {}{}", report.pieces.size(), fmt::join(parts, "; "),
+                                  report.pieces.size() > shown_parts ? "; …" : ""));
   if (report.borders.empty()) return;
   parts.clear();
   for (const sim::MeshReport::Border& border : report.borders)
     if (parts.size() < shown_parts)
       parts.push_back(
           fmt::format("{:.4g} m ({} edges) around {}", border.length, border.edges, text_of(border.middle)));
-  print_line("borders", fmt::format("{}: {}{}", report.borders.size(), fmt::join(parts, "; "),
-                                    report.borders.size() > shown_parts ? "; …" : ""));
+  print_row("borders", fmt::format("{}: {}{}", report.borders.size(), fmt::join(parts, "; "),
+                                   report.borders.size() > shown_parts ? "; …" : ""));
 }
 
 template <class Names>
 void print_names(std::string_view what, const Names& names) {
-  if (!names.empty()) print_line(what, fmt::format("{}", fmt::join(names, ", ")));
+  if (!names.empty()) print_row(what, fmt::format("{}", fmt::join(names, ", ")));
 }
 
 void print_extras(const sim::Mesh& mesh, const sim::MeshReport& report) {
@@ -139,16 +140,16 @@ void print_extras(const sim::Mesh& mesh, const sim::MeshReport& report) {
 
 void print_findings(const sim::MeshReport& report) {
   if (report.loose_vertices > 0)
-    print_line("beware", fmt::format("vertices of no face, left out: {}", report.loose_vertices));
+    print_row("beware", fmt::format("vertices of no face, left out: {}", report.loose_vertices));
   if (report.dropped_faces > 0)
-    print_line("beware", fmt::format("faces that collapse to a line or a point, left out: {}", report.dropped_faces));
+    print_row("beware", fmt::format("faces that collapse to a line or a point, left out: {}", report.dropped_faces));
   for (const Finding& finding : findings) {
     const sim::Places& places = report.*finding.places;
     if (places.count == 0) continue;
     std::vector<std::string> where;
     for (const Eigen::Vector3d& place : places.first) where.push_back(text_of(place));
-    print_line("beware", fmt::format("{}: {}, at {}{}", finding.text, places.count, fmt::join(where, "; "),
-                                     places.count > sim::Places::shown ? "; …" : ""));
+    print_row("beware", fmt::format("{}: {}, at {}{}", finding.text, places.count, fmt::join(where, "; "),
+                                    places.count > sim::Places::shown ? "; …" : ""));
   }
 }
 
@@ -158,10 +159,10 @@ int mesh_command(const MeshOptions& options) {
   const sim::Mesh mesh = sim::import_mesh(options.mesh);
   const sim::MeshReport report = sim::report_of(mesh);
   if (options.json) {
-    fmt::print("{}\n", json_text(as_json(mesh, report), 2));
+    print_json(json_text(as_json(mesh, report), 2));
     return exit_done;
   }
-  fmt::print("{}: {} vertices, {} faces ({} triangles, {} quads)\n", options.mesh.string(), report.vertices,
+  print_line("{}: {} vertices, {} faces ({} triangles, {} quads)", options.mesh.string(), report.vertices,
              report.triangles + report.quads, report.triangles, report.quads);
   print_size(report);
   print_parts(report);

@@ -10,6 +10,7 @@
 #include "cli/run/watched_scene.h"
 #include "cli/scene/simulation.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 #include "sim/limit/certificate.h"
 #include "sim/limit/filtered_eigenvalue.h"
 #include "sim/limit/paper_step.h"
@@ -180,26 +181,28 @@ std::string shown(const Limit& limit) {
 
 void print_table(const Subject& subject, const std::vector<Row>& rows) {
   const bool has_measured = rows.front().measured.known;
-  fmt::print("k0 = {:.6g} /s² by Lanczos ({} iterations{})\n", subject.k0.value, subject.k0.iterations,
+  print_line("k0 = {:.6g} /s² by Lanczos ({} iterations{})", subject.k0.value, subject.k0.iterations,
              subject.k0.converged ? "" : ", NOT converged");
   if (subject.filtered)
-    fmt::print("Algorithm 1: {:.6g} /s² with the scene's {} filter ({} iterations{})\n", subject.filtered->value,
+    print_line("Algorithm 1: {:.6g} /s² with the scene's {} filter ({} iterations{})", subject.filtered->value,
                filter_name(*subject.filter), subject.filtered->iterations,
                subject.filtered->converged ? "" : ", NOT converged");
-  if (subject.phase.begin > 0.0) fmt::print("\nwith the pins that hold from {:g} s on\n", subject.phase.begin);
-  fmt::print("\nlargest stable step [ms] at t = {:g} s\n{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}\n", subject.state.time,
-             "method", "filter", "paper", "certified", "any shape", has_measured ? "measured" : "");
+  if (subject.phase.begin > 0.0)
+    print_line(""), print_line("with the pins that hold from {:g} s on", subject.phase.begin);
+  print_line("");
+  print_line("largest stable step [ms] at t = {:g} s", subject.state.time);
+  print_line("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}", "method", "filter", "paper", "certified", "any shape",
+             has_measured ? "measured" : "");
   for (const Row& row : rows)
-    fmt::print("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}\n", sim::name(row.method),
+    print_line("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}", sim::name(row.method),
                row.filtered ? filter_name(*subject.filter) : "-", shown(row.paper), shown(row.certified),
                shown(row.any_shape), shown(row.measured));
-  fmt::print(
+  print_text(
       "\npaper: equation 11 and Algorithm 1. certified: no growth of the linearised step at this state. any shape: "
       "the\n"
       "same for the stiffest that any fold can be. none: no limit found.\n");
-  for (const std::string& law : subject.unbounded)
-    fmt::print(stderr, "warning: no limit counts {}, which has no bound\n", law);
-  if (subject.setter) fmt::print(stderr, "warning: {}\n", sim::text_of(subject.phase.structure, *subject.setter));
+  for (const std::string& law : subject.unbounded) say_line("warning: no limit counts {}, which has no bound", law);
+  if (subject.setter) say_line("warning: {}", sim::text_of(subject.phase.structure, *subject.setter));
 }
 
 }  // namespace
@@ -221,7 +224,7 @@ int stability_command(const StabilityOptions& options) {
   }
   progress.end();
   if (options.scene.json)
-    fmt::print("{}\n", json_text(as_json(subject, rows), 2));
+    print_json(json_text(as_json(subject, rows), 2));
   else
     print_table(subject, rows);
   return exit_done;

@@ -6,6 +6,7 @@
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -38,13 +39,13 @@ std::string extent(const Eigen::VectorXd& values, std::string_view unit) {
 void print_summary(const sim::Structure& s) {
   for (const sim::Body& body : s.body) {
     const auto mass = s.mass.segment(body.first_particle, body.particles);
-    fmt::print("{}: {} particles of {:.4g} to {:.4g} kg, {:.4g} kg in all, {} pinned\n", body.name, body.particles,
+    print_line("{}: {} particles of {:.4g} to {:.4g} kg, {:.4g} kg in all, {} pinned", body.name, body.particles,
                mass.minCoeff(), mass.maxCoeff(), mass.sum(),
                (s.inverse_mass.segment(body.first_particle, body.particles).array() == 0.0).count());
     std::map<sim::SpringKind, std::vector<int>> kinds;
     for (int k = body.first_spring; k < body.first_spring + body.springs; ++k) kinds[s.kind[k]].push_back(k);
     for (const auto& [kind, springs] : kinds)
-      fmt::print("  {:<10} {:>7} springs of {}, {}\n", name(kind), springs.size(), extent(s.stiffness(springs), "N/m"),
+      print_line("  {:<10} {:>7} springs of {}, {}", name(kind), springs.size(), extent(s.stiffness(springs), "N/m"),
                  extent(s.rest_length(springs), "m"));
   }
 }
@@ -54,7 +55,7 @@ void print_summary(const sim::Structure& s) {
 int structure_command(const SceneOptions& options) {
   const sim::Structure structure = build_structure(read_scene(options.scene, options.overrides));
   if (options.json)
-    fmt::print("{}\n", json_text(as_json(structure)));
+    print_json(json_text(as_json(structure)));
   else
     print_summary(structure);
   return exit_done;

@@ -18,6 +18,7 @@
 #include "cli/study/study_plan.h"
 #include "cli/study/study_run.h"
 #include "cli/study/study_work.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -45,7 +46,8 @@ void check_folder(const fs::path& folder) {
 // The folder of the runs comes first: it marks the folder as a study's, also for another process that begins now.
 void make_folders(const StudyPlan& plan) {
   check_folder(plan.folder);
-  make_folder(plan.folder / "runs");
+  make_folder(plan.folder);
+  make_folder_within(plan.folder, "runs");
   remove_strays(plan.folder);
 }
 
@@ -59,7 +61,7 @@ int list_runs(const StudyPlan& plan) {
   for (const StudyRun& run : plan.runs) {
     const bool running = claim_holder(plan.claim_of(run.number)).has_value();
     const std::string_view status = running ? "running" : name(plan.result_of(run.number).status);
-    fmt::print("{:>4}  {:<9} {}\n", run.number, status, label_of(plan.study, run));
+    print_line("{:>4}  {:<9} {}", run.number, status, label_of(plan.study, run));
   }
   return exit_done;
 }
@@ -69,8 +71,7 @@ int perform(const StudyPlan& plan, int number) {
   catch_interrupts();
   const RunResult result = perform_run(plan.study, plan.run(number), plan.folder_of(number));
   if (interrupted_by() != 0) return 128 + interrupted_by();
-  fmt::print(stderr, "{}: {}{}\n", plan.name_of(number), name(result.status),
-             result.message.empty() ? "" : "; " + result.message);
+  say_line("{}: {}{}", plan.name_of(number), name(result.status), result.message.empty() ? "" : "; " + result.message);
   return exit_done;
 }
 
@@ -78,7 +79,7 @@ int do_one(const StudyPlan& plan, int number) {
   do_runs(plan, {{number, result_stamp(plan.folder_of(number))}}, 1);
   if (interrupted_by() != 0) return 128 + interrupted_by();
   const RunResult result = plan.result_of(number);
-  if (!result.message.empty()) fmt::print(stderr, "{}\n", result.message);
+  if (!result.message.empty()) say_line("{}", result.message);
   return is_finished(result) ? exit_done : exit_internal_fault;
 }
 
@@ -89,7 +90,7 @@ std::vector<DueRun> due_runs(const StudyPlan& plan, bool all) {
     const ResultStamp before = result_stamp(plan.folder_of(run.number));
     const RunResult result = plan.result_of(run.number);
     if (result.status == RunStatus::missing && !result.message.empty())
-      fmt::print(stderr, "warning: {}: {}; it is done again\n", plan.name_of(run.number), result.message);
+      say_line("warning: {}: {}; it is done again", plan.name_of(run.number), result.message);
     if (all || !is_finished(result)) due.push_back({run.number, before});
   }
   return due;
@@ -99,8 +100,8 @@ void run_missing(const StudyPlan& plan, const StudyOptions& options) {
   const std::vector<DueRun> due = due_runs(plan, options.overwrite);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = options.jobs > 0 ? options.jobs : plan.study.measures.repeats > 0 ? 1 : cores;
-  fmt::print(stderr, "{}: {} runs, {} of them finished already\n", plan.study.file.string(), plan.runs.size(),
-             plan.runs.size() - due.size());
+  say_line("{}: {} runs, {} of them finished already", plan.study.file.string(), plan.runs.size(),
+           plan.runs.size() - due.size());
   do_runs(plan, due, jobs);
 }
 
@@ -111,8 +112,8 @@ std::size_t report_shortfalls(const StudyPlan& plan, const std::vector<RunResult
   for (const StudyRun& run : plan.runs) {
     const RunResult& result = results[static_cast<std::size_t>(run.number) - 1];
     if (is_finished(result) || ++lacking > most_named) continue;
-    fmt::print(stderr, "{}: {}{}\n", plan.name_of(run.number), name(result.status),
-               result.message.empty() ? "" : "; " + result.message);
+    say_line("{}: {}{}", plan.name_of(run.number), name(result.status),
+             result.message.empty() ? "" : "; " + result.message);
   }
   return lacking;
 }
@@ -124,14 +125,14 @@ int assemble(const StudyPlan& plan) {
   StudyContents contents{plan.study, plan.folder, plan.runs, results, {}};
   contents.faults = make_pictures(contents);
   for (const auto& [picture, fault] : contents.faults)
-    fmt::print(stderr, "warning: the picture '{}' is missing: {}\n", picture, fault);
+    say_line("warning: the picture '{}' is missing: {}", picture, fault);
   write_file_atomically(plan.folder / study_files::table, results_csv(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / study_files::record, study_json(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / study_files::page, study_page(contents));
   const std::size_t lacking = report_shortfalls(plan, results);
-  fmt::print(stderr, "wrote {} pictures, results.csv, study.json and index.html to {}{}\n",
-             plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
-             lacking ? fmt::format("; {} runs are missing or failed", lacking) : "");
+  say_line("wrote {} pictures, results.csv, study.json and index.html to {}{}",
+           plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
+           lacking ? fmt::format("; {} runs are missing or failed", lacking) : "");
   return lacking || !contents.faults.empty() ? exit_internal_fault : exit_done;
 }
 
@@ -139,6 +140,7 @@ int assemble(const StudyPlan& plan) {
 
 int study_command(const StudyOptions& options) {
   StudyPlan plan = make_plan(options.study, options.output);
+  plan.untrusted = options.untrusted;
   if (options.perform) {
     check_number(plan, "--perform", *options.perform);
     return perform(plan, *options.perform);

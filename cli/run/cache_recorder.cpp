@@ -11,7 +11,7 @@ CacheRecorder::CacheRecorder(const RecorderSetting& setting, FilmReport& report)
       frames_(frame_schedule(setting.run.scene, setting.range.last)),
       report_(report),
       geometry_(setting.run) {
-  make_folder(folder_);
+  make_folder_within(setting.folder.path(), folder_.filename());
   make_writers(setting.run.scene.caches);
 }
 
@@ -19,7 +19,7 @@ void CacheRecorder::make_writers(const std::vector<CacheFormat>& formats) {
   const std::vector<CacheMesh>& meshes = geometry_.meshes();
   for (std::size_t m = 0; m < meshes.size(); ++m)
     for (const CacheFormat format : formats) {
-      if (has_file_per_frame(format)) make_folder(folder_ / meshes[m].name);
+      if (has_file_per_frame(format)) make_folder_within(folder_, meshes[m].name);
       if (auto writer = make_cache_writer(format, folder_, meshes[m]))
         output_.push_back({format, m, std::move(writer)});
     }

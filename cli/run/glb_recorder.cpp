@@ -44,9 +44,8 @@ void GlbRecorder::add(double time, const sim::State& state) {
 void GlbRecorder::finish() {
   if (keys_.empty()) return;
   const std::string bytes = glb_file(parts_of(setting_.run), keys_, setting_.run.drawn.origin());
-  const std::filesystem::path file = setting_.folder.file(RunFile::glb);
-  make_folder(file.parent_path());
-  write_file_atomically(file, bytes);
+  make_folder_within(setting_.folder.path(), setting_.folder.caches().filename());
+  write_file_atomically(setting_.folder.file(RunFile::glb), bytes);
   write_file_atomically(setting_.folder.file(RunFile::glb_script), "window.billow_glb = \"" + base64(bytes) + "\";\n");
   report_.caches.push_back({CacheFormat::glb, "", std::filesystem::path(word_of(RunFile::glb)), setting_.range.first,
                             static_cast<long>(keys_.size())});

@@ -49,8 +49,26 @@ bool is_cache(const fs::path& file) {
   return has_extension(file, {".pc2", ".mdd", ".pvd", ".glb"}) || file.filename().string().ends_with(".rest.obj");
 }
 
+bool is_link(const fs::path& path) {
+  std::error_code error;
+  return fs::is_symlink(fs::symlink_status(path, error));
+}
+
+[[noreturn]] void refuse_link(const fs::path& folder) {
+  throw OutputError(fmt::format(
+      "{} is a link, and nothing is written through it; remove it, or choose another folder with -o", folder.string()));
+}
+
+// Where runs write to, besides what is in these.
+std::vector<fs::path> folders_of_runs(const fs::path& folder) {
+  std::vector<fs::path> folders = {folder / "caches", folder / StateStore::folder_name};
+  for (const render::ViewRow& view : render::views()) folders.push_back(folder / view.folder);
+  return folders;
+}
+
 // Removes the files in `folder` that are ours, and the folder if nothing else is in it.
 void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
+  if (is_link(folder)) return;
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -60,10 +78,11 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
 }
 
 void remove_caches(const fs::path& folder) {
+  if (is_link(folder)) return;
   std::error_code error;
   std::vector<fs::path> sequences;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.is_directory(error) && !entry.is_symlink(error)) sequences.push_back(entry.path());
+    if (entry.is_directory(error)) sequences.push_back(entry.path());
   for (const fs::path& sequence : sequences) remove_files(sequence, is_frame);
   remove_files(folder, is_cache);
 }
@@ -87,9 +106,11 @@ void remove_earlier_run(const fs::path& folder) {
   std::error_code error;
   remove_all_frames(folder);
   remove_caches(folder / caches_name);
-  remove_states(folder / StateStore::folder_name);
-  for (const std::string_view file : all_words<RunFile>())
-    if (fs::is_regular_file(folder / file, error)) fs::remove(folder / file, error);
+  if (const fs::path states = folder / StateStore::folder_name; !is_link(states)) remove_states(states);
+  for (const std::string_view name : all_words<RunFile>())
+    if (const fs::path file = folder / name;
+        fs::is_regular_file(file, error) && !is_link(folder / *fs::path(name).begin()))
+      fs::remove(file, error);
   if (fs::is_directory(folder / caches_name, error))
     fs::remove(folder / caches_name, error);  // only if it is empty now
 }
@@ -133,6 +154,15 @@ void make_folder(const fs::path& folder) {
   if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
 }
 
+void make_folder_within(const fs::path& folder, const fs::path& inner) {
+  fs::path made = folder;
+  for (const fs::path& name : inner) {
+    made /= name;
+    if (is_link(made)) refuse_link(made);
+    make_folder(made);
+  }
+}
+
 nlohmann::json earlier_record(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_regular_file(folder / "run.json", error)) return {};
@@ -148,6 +178,8 @@ void check_output_folder(const fs::path& folder, Existing existing, const Scene&
         fmt::format("{} already holds files; use --overwrite to replace a run there, --resume to finish "
                     "it, or -o for another folder",
                     folder.string()));
+  for (const fs::path& inner : folders_of_runs(folder))
+    if (is_link(inner)) refuse_link(inner);
   if (!empty && existing == Existing::resume) check_same_run(folder, scene);
 }
 
@@ -164,8 +196,8 @@ void OutputFolder::begin_run() {
 }
 
 void OutputFolder::join_run() {
+  for (const render::View view : views_) make_folder_within(folder_, render::folder(view));
   remove_strays_of_runs(folder_);
-  for (const render::View view : views_) make_folder(folder_ / render::folder(view));
 }
 
 fs::path frame_of(const fs::path& folder, render::View view, long frame) {

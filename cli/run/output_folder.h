@@ -20,9 +20,13 @@ enum class Existing { refuse, overwrite, resume };
 /// Makes the folder and those above it where they are missing. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
 
+/// Makes `inner`, a relative path, within a folder that is there. Throws OutputError also where a folder on the way is
+/// a link: what the tool writes stays in the folder that it was given.
+void make_folder_within(const std::filesystem::path& folder, const std::filesystem::path& inner);
+
 /// Throws OutputError when `folder` holds anything and `existing` is refuse, or holds anything but a run of this scene,
-/// however long, by its run.json and it is resume. Folders in which there is nothing, and the temporary files of runs
-/// that were killed, count as nothing. Changes nothing.
+/// however long, by its run.json and it is resume, or when a folder in it that a run writes to is a link. Folders in
+/// which there is nothing, and the temporary files of runs that were killed, count as nothing. Changes nothing.
 void check_output_folder(const std::filesystem::path& folder, Existing existing, const Scene& scene);
 
 /// run.json of `folder`, as far as it can be read; null where it cannot.
@@ -56,7 +60,7 @@ class OutputFolder {
                const std::vector<render::View>& views);
 
   /// Call it when the first frame is about to be drawn: `overwrite` now removes what an earlier run wrote there, and
-  /// nothing else but the temporary files of runs that were killed.
+  /// nothing else but the temporary files of runs that were killed; nothing through a link.
   void begin_run();
   /// The same where other processes may be drawing other frames of the run: removes nothing else.
   void join_run();

@@ -4,20 +4,21 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/announcement.h"
 #include "cli/text/json_text.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
 namespace {
 
+using Json = nlohmann::json;
+
 constexpr double long_phase = 0.5;  // [s] a phase that lasts longer is said
-constexpr const char* wiped = "\r\033[K";
 
 double seconds_of(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -45,9 +46,10 @@ void Progress::phase(std::string_view name, std::string_view subject) {
 }
 
 std::string Progress::announcement(std::string_view name, std::string_view subject) const {
-  if (style_ == ProgressStyle::json) return json_text(nlohmann::json{{"phase", name}, {"subject", subject}}) + "\n";
-  const std::string on = subject.empty() ? "" : fmt::format(" {}", subject);
-  return redraw_ ? fmt::format("{}{}{} ...", wiped, name, on) : fmt::format("{}{} ...\n", name, on);
+  if (style_ == ProgressStyle::json)
+    return printable_json(json_text(Json{{"phase", name}, {"subject", subject}})) + "\n";
+  const std::string line = fmt::format("{}{}{} ...", name, subject.empty() ? "" : " ", printable(subject));
+  return redraw_ ? fmt::format("{}{}", wipe, line) : line + "\n";
 }
 
 double Progress::seconds(std::string_view phase) const {
@@ -83,32 +85,22 @@ void Progress::update(long done, double time) {
 void Progress::print_line(long done, double time) {
   const double elapsed = seconds_of(last_ - begin_), rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
   const double left = rate > 0.0 ? static_cast<double>(total_ - done) / rate : 0.0;
-  std::string line;
   if (style_ == ProgressStyle::json)
-    line = json_text(nlohmann::json{{"stage", stage_},
-                                    {"done", done},
-                                    {"total", total_},
-                                    {"time", time},
-                                    {"rate", rate},
-                                    {"seconds_left", left}}) +
-           "\n";
-  else
-    line = fmt::format("{}{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left{}", redraw_ ? wiped : "", stage_,
-                       done, total_, time, rate, time_left(left), redraw_ ? "" : "\n");
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+    return say_json(json_text(Json{
+        {"stage", stage_}, {"done", done}, {"total", total_}, {"time", time}, {"rate", rate}, {"seconds_left", left}}));
+  const std::string line = fmt::format("{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left", stage_, done,
+                                       total_, time, rate, time_left(left));
+  redraw_ ? redraw_line(line) : say_message(line);
 }
 
 void Progress::say(const std::string& line) {
   end();
-  const std::string text = style_ == ProgressStyle::json ? json_text(nlohmann::json{{"message", line}}) : line;
-  std::fputs((text + "\n").c_str(), stderr);
-  std::fflush(stderr);
+  style_ == ProgressStyle::json ? say_json(json_text(Json{{"message", line}})) : say_message(line);
 }
 
 void Progress::end() {
   withdraw_announcement();
-  if (redraw_) std::fputs(wiped, stderr);
+  if (redraw_) wipe_line();
 }
 
 }  // namespace billow::cli

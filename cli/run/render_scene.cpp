@@ -131,7 +131,7 @@ class SceneRun {
       folder_.join_run();
     else
       folder_.begin_run();
-    if (keeps_states(options_, folder_)) make_folder(folder_.states());
+    if (keeps_states(options_, folder_)) make_folder_within(folder_.path(), StateStore::folder_name);
   }
 
   StateStore store(const std::filesystem::path& folder) const {

@@ -5,12 +5,12 @@
 
 namespace billow::cli {
 
-BodySpec load_body(BodyDraft draft, const FileWatch& watch) {
+BodySpec load_body(BodyDraft draft, const FileWatch& watch, TextureBudget& budget) {
   BodySpec& spec = draft.spec;
   check_file(spec.mesh_file, "mesh", spec.mesh_where);
   sim::Mesh mesh;
   if (!spec.mesh_file.empty()) mesh = load_mesh(spec.mesh_file, spec.mesh_where, watch);
-  load_look(spec, mesh, spec.mesh_file, watch);
+  load_look(spec, mesh, spec.mesh_file, watch, budget);
   if (!spec.mesh_file.empty()) place_mesh(mesh, draft, spec);
   spec.warnings = mesh_warnings(spec, draft.unit_given);
   spec.framed_points = framed_vertices(spec);

@@ -143,11 +143,11 @@ ColliderDraft read_collider(const Node& node, int index, const fs::path& folder,
   return draft;
 }
 
-ColliderSpec load_collider(ColliderDraft draft, const FileWatch& watch) {
+ColliderSpec load_collider(ColliderDraft draft, const FileWatch& watch, TextureBudget& budget) {
   ColliderSpec& spec = draft.spec;
   check_file(spec.mesh_file, "mesh", spec.mesh_where);
   if (!spec.mesh_file.empty()) spec.solid.mesh = load_mesh(spec.mesh_file, spec.mesh_where, watch);
-  load_look(spec, spec.solid.mesh, spec.mesh_file, watch);
+  load_look(spec, spec.solid.mesh, spec.mesh_file, watch, budget);
   if (!spec.mesh_file.empty()) spec.solid.mesh = placed(spec.solid.mesh, draft.placement);
   spec.solid.motion = sim::KeyedMotion(draft.motion, draft.pivot ? *draft.pivot : box_centre(spec.solid.mesh));
   return std::move(spec);

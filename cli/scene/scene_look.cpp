@@ -21,11 +21,14 @@ AlphaMode alpha_of(const render::Image& texture) {
   return render::has_alpha(texture) ? AlphaMode::cut_out : AlphaMode::opaque;
 }
 
-render::Finish own_finish(const Look& look, const FileWatch& watch) {
+render::Finish own_finish(const Look& look, const FileWatch& watch, TextureBudget& budget) {
   render::Finish finish;
   check_file(look.texture_file, "texture", look.texture_where);
   if (watch) watch(look.texture_file);
-  finish.texture = located(look.texture_where, [&] { return render::read_texture(look.texture_file); });
+  located(look.texture_where, [&] {
+    finish.texture = render::read_texture(look.texture_file);
+    budget.take(std::size_t(finish.texture.width) * finish.texture.height);
+  });
   finish.colour.setOnes();
   finish.alpha = alpha_of(finish.texture);
   return finish;
@@ -34,8 +37,9 @@ render::Finish own_finish(const Look& look, const FileWatch& watch) {
 // The materials that faces have, as finishes; their faces are renumbered.
 class MeshFinishes {
  public:
-  MeshFinishes(const Look& look, sim::Mesh& mesh, const fs::path& mesh_file, const FileWatch& watch)
-      : look_(look), mesh_(mesh), folder_(mesh_file, most_texture_bytes), watch_(watch) {}
+  MeshFinishes(const Look& look, sim::Mesh& mesh, const fs::path& mesh_file, const FileWatch& watch,
+               TextureBudget& budget)
+      : look_(look), mesh_(mesh), folder_(mesh_file, most_texture_bytes), watch_(watch), budget_(budget) {}
 
   std::vector<render::Finish> take() {
     std::vector<int> used(mesh_.face_material);
@@ -61,7 +65,7 @@ class MeshFinishes {
     finish.opacity = material.colour(3);
     finish.cutoff = material.cutoff;
     if (!material.texture_bytes.empty())
-      read(material, "(in the file)", [&] { finish.texture = render::decode_texture(material.texture_bytes, "it"); });
+      read(material, "(in the file)", [&] { finish.texture = decoded(material.texture_bytes); });
     else if (!material.texture.empty())
       read(material, material.texture, [&] { finish.texture = texture_file(material.texture); });
     if (!material.alpha_texture.empty())
@@ -83,6 +87,12 @@ class MeshFinishes {
   render::Image texture_file(const std::string& name) {
     const std::string bytes = folder_.read(name);
     if (watch_) watch_(folder_.path() / name);
+    return decoded(bytes);
+  }
+
+  // Any number of materials may each name a large texture, also one that proves damaged at its end.
+  render::Image decoded(std::string_view bytes) {
+    budget_.take(render::claimed_pixels(bytes));
     return render::decode_texture(bytes, "it");
   }
 
@@ -100,21 +110,22 @@ class MeshFinishes {
   sim::Mesh& mesh_;
   sim::MeshFolder folder_;
   const FileWatch& watch_;
+  TextureBudget& budget_;
 };
 
 }  // namespace
 
-void load_look(Look& look, sim::Mesh& mesh, const fs::path& mesh_file, const FileWatch& watch) {
+void load_look(Look& look, sim::Mesh& mesh, const fs::path& mesh_file, const FileWatch& watch, TextureBudget& budget) {
   const bool own = !look.texture_file.empty();
   if (own || !look.of_mesh) mesh.face_material.clear();
   look.shows_vertex_colours = !own && look.of_mesh && mesh.colour.rows() > 0;
   if (own) {
-    look.finish = {own_finish(look, watch)};
+    look.finish = {own_finish(look, watch, budget)};
   } else if (mesh.face_material.empty()) {
     look.finish = {render::Finish()};
     look.finish[0].colour = look.shows_vertex_colours ? Eigen::Vector3f::Ones() : look.colour;
   } else {
-    look.finish = MeshFinishes(look, mesh, mesh_file, watch).take();
+    look.finish = MeshFinishes(look, mesh, mesh_file, watch, budget).take();
   }
   mesh.material.clear();
   for (render::Finish& finish : look.finish) {

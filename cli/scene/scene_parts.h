@@ -53,8 +53,10 @@ struct BodyDraft {
 /// `folder` is what relative paths are relative to; `index` gives a nameless body its name.
 BodyDraft read_body(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record);
 
+class TextureBudget;
+
 /// Opens the mesh and the texture and finds the pins; `watch`, where there is one, hears of both before.
-BodySpec load_body(BodyDraft draft, const FileWatch& watch);
+BodySpec load_body(BodyDraft draft, const FileWatch& watch, TextureBudget& budget);
 
 /// Throws InputError unless a body or a collider can be called that.
 void check_name(const std::string& name, const std::string& where);
@@ -84,7 +86,7 @@ struct ColliderDraft {
 ColliderDraft read_collider(const Node& node, int index, const std::filesystem::path& folder, const NodePtr& record);
 
 /// As load_body.
-ColliderSpec load_collider(ColliderDraft draft, const FileWatch& watch);
+ColliderSpec load_collider(ColliderDraft draft, const FileWatch& watch, TextureBudget& budget);
 
 /// `duration` [s] bounds the step.
 SolverSpec read_solver(MapReader& scene, double duration);

@@ -5,6 +5,7 @@
 
 #include "cli/scene/fingerprint.h"
 #include "cli/scene/scene.h"
+#include "cli/scene/scene_files.h"
 #include "cli/scene/scene_keys.h"
 #include "cli/scene/scene_parts.h"
 #include "cli/text/number_text.h"
@@ -101,8 +102,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.spectrum = read_spectrum(map, scene.duration, drafts);
   settle_contact(drafts, !colliders.empty() || render.ground);
   scene.effective = to_yaml(*record);
-  for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch));
-  for (ColliderDraft& draft : colliders) scene.colliders.push_back(load_collider(std::move(draft), watch));
+  TextureBudget budget;
+  for (BodyDraft& draft : drafts) scene.bodies.push_back(load_body(std::move(draft), watch, budget));
+  for (ColliderDraft& draft : colliders) scene.colliders.push_back(load_collider(std::move(draft), watch, budget));
   scene.contact = contact_of(scene, render.ground);
   take_fingerprints(record, scene);
   return scene;

@@ -43,7 +43,7 @@ void read_lambda(MapReader& map, SolverSpec& solver) {
     solver.filter->lambda = map.number("lambda", solver.filter->lambda);
     return;
   }
-  solver.lambda_expression = node->text;
+  solver.lambda_expression = read_text(*node, "lambda");
   map.record("lambda", make_scalar(node->text, true));
 }
 

@@ -16,6 +16,7 @@ struct StudyPlan {
   std::filesystem::path folder;
   std::vector<StudyRun> runs;
   std::vector<std::string> hash;  // per run, what its result must carry to count; see read_hash()
+  bool untrusted = false;         // no file outside of the study's folder is read
 
   const StudyRun& run(int number) const { return runs[static_cast<std::size_t>(number) - 1]; }
   std::filesystem::path folder_of(int number) const { return run_folder(folder, study, run(number)); }

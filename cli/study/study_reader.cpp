@@ -5,7 +5,10 @@
 #include <map>
 #include <system_error>
 
+#include "base/error.h"
+#include "base/file_trust.h"
 #include "base/suggest.h"
+#include "cli/scene/scene_parts.h"
 #include "cli/study/study.h"
 #include "cli/study/study_keys.h"
 #include "cli/study/study_results.h"
@@ -285,6 +288,29 @@ void read_pictures(MapReader& map, Study& study) {
   if (study.pictures.empty()) fail_at(map.where("pictures"), "pictures is empty: a study needs something to make");
 }
 
+// Faults of a scene are shown with what stands there, so an outside file has to be one first.
+void check_outside_scene(const std::filesystem::path& scene) {
+  bool is_scene = false;
+  try {
+    is_scene = read_yaml_file(scene)->find("billow") != nullptr;
+  } catch (const InputError&) {
+    // said below, without the file's words
+  }
+  const std::string shown = scene.lexically_normal().string();
+  if (!is_scene) throw InputError(fmt::format("{} is no scene file; 'billow check {}' says why", shown, shown));
+}
+
+std::filesystem::path read_scene_path(MapReader& map, const std::filesystem::path& folder) {
+  const std::filesystem::path scene = folder / map.text("scene");
+  located(map.where("scene"), [&] { require_trusted(scene); });
+  std::error_code error;
+  if (!std::filesystem::exists(scene, error))
+    fail_at(map.where("scene"),
+            fmt::format("there is no scene file {}; the path is relative to the study's folder", scene.string()));
+  if (!may_be_quoted(scene)) located(map.where("scene"), [&] { check_outside_scene(scene); });
+  return scene;
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& file) {
@@ -295,11 +321,7 @@ Study read_study(const std::filesystem::path& file) {
   study.file = file;
   study.title = map.text("title", file.stem().string());
   study.about = map.text("about", "");
-  study.scene = file.parent_path() / map.text("scene");
-  std::error_code error;
-  if (!std::filesystem::exists(study.scene, error))
-    fail_at(map.where("scene"),
-            fmt::format("there is no scene file {}; the path is relative to the study's folder", study.scene.string()));
+  study.scene = read_scene_path(map, file.parent_path());
   if (const Node* set = map.find("set")) study.base = read_changes(*set);
   read_axes(map, study);
   study.measures = read_measures(map);

@@ -113,6 +113,7 @@ void render_run(const Study& study, const StudyRun& run, const Scene& scene, con
   options.scene = study.scene;
   options.output = folder / "film";
   options.existing = Existing::overwrite;
+  make_folder_within(folder, "film");
   options.command = command_of(study, run);
   const int status = render_scene(scene, simulation, choice, options, progress);
   if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));

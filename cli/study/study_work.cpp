@@ -13,6 +13,7 @@
 #include "cli/run/output_folder.h"
 #include "cli/study/study_jobs.h"
 #include "cli/study/study_run.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -48,7 +49,7 @@ class SharedRuns : public JobKeeper {
   }
 
   Turn turn_of(int number) override {
-    make_folder(plan_.folder_of(number));
+    make_folder_within(plan_.folder, run_folder("", plan_.study, plan_.run(number)));
     std::variant<Claim, ClaimHolder> taken = take_claim(plan_.claim_of(number));
     if (const auto* holder = std::get_if<ClaimHolder>(&taken)) {
       holder_.insert_or_assign(number, *holder);
@@ -67,9 +68,10 @@ class SharedRuns : public JobKeeper {
   }
 
   JobCommand command_of(int number) override {
-    return {{"billow", "study", plan_.study.file.string(), "-o", plan_.folder.string(), "--perform",
-             std::to_string(number)},
-            plan_.log_of(number)};
+    std::vector<std::string> words = {
+        "billow", "study", plan_.study.file.string(), "-o", plan_.folder.string(), "--perform", std::to_string(number)};
+    if (plan_.untrusted) words.push_back("--untrusted");
+    return {words, plan_.log_of(number)};
   }
 
   bool goes_on(int number) override {
@@ -104,17 +106,16 @@ class SharedRuns : public JobKeeper {
   std::string command_line_of(int number) const { return cli::command_of(plan_.study, plan_.run(number)); }
 
   void report(int number, const std::string& how) {
-    fmt::print(stderr, "[{}/{}] {}: {} {}\n", ++ended_, total_, plan_.name_of(number),
-               name(plan_.result_of(number).status), how);
+    say_line("[{}/{}] {}: {} {}", ++ended_, total_, plan_.name_of(number), name(plan_.result_of(number).status), how);
   }
 
   void say_waiting(int number, const ClaimHolder& holder) const {
-    fmt::print(stderr, "waiting for {}: {} is at it\n", plan_.name_of(number), described(holder));
+    say_line("waiting for {}: {} is at it", plan_.name_of(number), described(holder));
     if (!holder.is_near)
-      fmt::print(stderr,
-                 "  if that machine is gone, the run is taken over {} s after its last sign of life; at once when you "
-                 "remove {}\n",
-                 Claim::dead_after.count(), plan_.claim_of(number).string());
+      say_line(
+          "  if that machine is gone, the run is taken over {} s after its last sign of life; at once when you remove "
+          "{}",
+          Claim::dead_after.count(), plan_.claim_of(number).string());
   }
 
   const StudyPlan& plan_;

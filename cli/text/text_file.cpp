@@ -12,7 +12,7 @@
 namespace billow::cli {
 namespace {
 
-bool is_continuation(unsigned char byte) { return (byte & 0xC0) == 0x80; }
+constexpr std::size_t longest = 40;  // [characters] that a message quotes
 
 bool is_control(unsigned char byte) {
   return (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
@@ -53,13 +53,25 @@ std::size_t character_count(std::string_view text) {
 }
 
 std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 40;
   if (character_count(text) <= longest) return std::string(text);
   std::size_t end = 0;
   for (std::size_t characters = 0; characters < longest - 3; ++characters) do
       ++end;
-    while (is_continuation(static_cast<unsigned char>(text[end])));
+    while (is_continuation(text[end]));
   return std::string(text.substr(0, end)) + "...";
+}
+
+std::string shortened_around(std::string_view text, std::size_t place) {
+  std::size_t begin = std::min(place, text.size()), end = begin;
+  for (std::size_t k = 0; k < longest / 2; ++k) {
+    if (begin > 0) do
+        --begin;
+      while (begin > 0 && is_continuation(text[begin]));
+    if (end < text.size()) do
+        ++end;
+      while (end < text.size() && is_continuation(text[end]));
+  }
+  return fmt::format("{}{}{}", begin > 0 ? "…" : "", text.substr(begin, end - begin), end < text.size() ? "…" : "");
 }
 
 }  // namespace billow::cli

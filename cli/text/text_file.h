@@ -26,4 +26,7 @@ std::size_t character_count(std::string_view text);
 /// At most 40 characters of `text`, with "..." for what is left out: how messages quote the user.
 std::string shortened(std::string_view text);
 
+/// The characters of `text` around its byte `place`, 20 on either side, with "…" for what is left out.
+std::string shortened_around(std::string_view text, std::size_t place);
+
 }  // namespace billow::cli

@@ -1,6 +1,7 @@
 // Tree -> YAML text.
 #include <algorithm>
 
+#include "cli/text/terminal.h"
 #include "cli/yaml/yaml_tree.h"
 
 namespace billow::cli {
@@ -15,20 +16,15 @@ bool is_plain(const std::string& text) {
 }
 
 std::string quoted(const std::string& text) {
-  std::string out = "\"";
+  std::string out;
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n')
-      out += "\\n";
-    else if (c == '\t')
-      out += "\\t";
-    else if (c == '\r')
-      out += "\\r";
-    else
-      out += c;
+    out += c;
   }
-  return out + '"';
+  return '"' + printable(out) + '"';
 }
+
+std::string key_of(const Entry& entry) { return is_plain(entry.key) ? entry.key : quoted(entry.key); }
 
 std::string scalar(const Node& node) { return node.quoted || !is_plain(node.text) ? quoted(node.text) : node.text; }
 
@@ -51,7 +47,7 @@ void write_value(const Node& node, const std::string& indent, std::string& out) 
 
 void write(const Node& node, const std::string& indent, std::string& out) {
   for (const Entry& entry : node.entries) {
-    out += indent + entry.key + ":";
+    out += indent + key_of(entry) + ":";
     write_value(*entry.value, indent, out);
   }
   for (const NodePtr& item : node.items) {
@@ -71,7 +67,7 @@ std::string to_yaml_line(const Node& node) {
   std::string out = list ? "[" : "{";
   for (const NodePtr& item : node.items) out += (out.size() > 1 ? ", " : "") + to_yaml_line(*item);
   for (const Entry& entry : node.entries)
-    out += (out.size() > 1 ? ", " : "") + entry.key + ": " + to_yaml_line(*entry.value);
+    out += (out.size() > 1 ? ", " : "") + key_of(entry) + ": " + to_yaml_line(*entry.value);
   return out + (list ? "]" : "}");
 }
 

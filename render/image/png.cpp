@@ -19,7 +19,8 @@
 namespace billow::render {
 namespace {
 
-constexpr int max_read_size = 8192;  // [pixel] either way: a hostile header must not claim all memory
+constexpr int max_read_size = 8192;           // [pixel] either way: a hostile header must not claim all memory
+constexpr std::uintmax_t most_packed = 1032;  // bytes that deflate can make one of
 constexpr int max_write_size = 0x7fffffff;
 
 // libpng calls this instead of returning; the text outlives the jump.
@@ -78,7 +79,7 @@ Stream open_to_read(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (std::filesystem::is_directory(status)) refuse(file, "is a folder, not a PNG image");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse(file, "is not a file, and so no PNG image");
+    refuse(file, "is not a regular file, so it is not read as an image");
   Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!stream) refuse(file, fmt::format("cannot open the image: {}", std::strerror(errno)));
   return stream;
@@ -88,9 +89,23 @@ std::uint32_t big_endian(const png_byte* bytes) {
   return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 8 | bytes[3];
 }
 
+std::uintmax_t bytes_of(std::FILE* stream) {
+  const long size = std::fseek(stream, 0, SEEK_END) == 0 ? std::ftell(stream) : -1;
+  return size < 0 ? 0 : static_cast<std::uintmax_t>(size);
+}
+
+// Unpacked; of a colour type that there is not, as for the largest.
+std::uintmax_t pixel_bytes(std::uintmax_t width, std::uintmax_t height, unsigned depth, unsigned colour_type) {
+  const unsigned samples = colour_type == PNG_COLOR_TYPE_GRAY || colour_type == PNG_COLOR_TYPE_PALETTE ? 1
+                           : colour_type == PNG_COLOR_TYPE_GRAY_ALPHA                                  ? 2
+                           : colour_type == PNG_COLOR_TYPE_RGB                                         ? 3
+                                                                                                       : 4;
+  return (width * samples * depth + 7) / 8 * height;
+}
+
 // Signature and size are checked here because libpng's own words for them do not help a user.
 void check_header(const std::filesystem::path& file, std::FILE* stream) {
-  png_byte header[24] = {};
+  png_byte header[26] = {};
   const std::size_t got = std::fread(header, 1, sizeof header, stream);
   if (got == 0) refuse(file, "the image is empty");
   if (png_sig_cmp(header, 0, std::min<std::size_t>(got, 8)) != 0) refuse(file, "is not a PNG image");
@@ -99,6 +114,8 @@ void check_header(const std::filesystem::path& file, std::FILE* stream) {
   if (width > max_read_size || height > max_read_size)
     refuse(file, fmt::format("the image has {} x {} pixels; at most {} x {} are read", width, height, max_read_size,
                              max_read_size));
+  if (pixel_bytes(width, height, header[24], header[25]) / most_packed > bytes_of(stream))
+    refuse(file, fmt::format("the PNG image is cut short: {} x {} pixels do not fit in it", width, height));
   std::rewind(stream);
 }
 
@@ -107,6 +124,9 @@ void read_header(Reader& reader, std::FILE* stream) {
   png_structp png = reader.png;
   png_init_io(png, stream);
   png_set_user_limits(png, max_read_size, max_read_size);
+  // All but pixels, palette and transparency is skipped: a text or a colour profile may claim gigabytes, or unpack to
+  // them, and libpng only warns of those above its limits.
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   png_read_info(png, reader.info);
   png_set_expand(png);
@@ -246,6 +266,12 @@ Image decode_png(std::string_view bytes, const std::string& name) {
   Stream stream(fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"), std::fclose);
   if (!stream) throw std::bad_alloc();
   return image_of({std::move(stream), name});
+}
+
+std::size_t claimed_png_pixels(std::string_view bytes) {
+  const auto* header = reinterpret_cast<const png_byte*>(bytes.data());
+  if (bytes.size() < 24 || png_sig_cmp(header, 0, 8) != 0) return 0;
+  return std::size_t{big_endian(header + 16)} * big_endian(header + 20);
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {

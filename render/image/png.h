@@ -16,7 +16,8 @@ namespace billow::render {
 class PngSource;
 
 /// Reads an 8-bit RGB or RGBA image (palette, grey and 16-bit files are converted).
-/// Throws InputError on a file that is missing, damaged, or larger than 8192 x 8192.
+/// Throws InputError on a file that is missing, no regular file, damaged, or larger than 8192 x 8192. Takes no more
+/// memory than its pixels do: what else is in the file is skipped.
 Image read_png(const std::filesystem::path& file);
 
 /// The same image row by row from the top, for images too large to hold; only interlaced ones are held.
@@ -37,6 +38,9 @@ class PngRows {
 
 /// As read_png, of the bytes of a file; `name` stands for it in messages.
 Image decode_png(std::string_view bytes, const std::string& name);
+
+/// How many pixels the header of such bytes claims; 0 where they have none.
+std::size_t claimed_png_pixels(std::string_view bytes);
 
 /// Writes `image` whole or not at all (AtomicFile). The same pixels give the same bytes.
 /// Throws OutputError, leaving neither file, when anything fails.

@@ -18,6 +18,10 @@ namespace billow::render {
 namespace {
 
 constexpr unsigned max_size = 8192;  // [pixel] either way
+// A progressive image keeps its coefficients until its last scan: two bytes for each of three colours, and some more.
+constexpr long max_jpeg_bytes = 512L << 20;
+constexpr int max_scans = 100;  // of a progressive image; each goes over the whole image, however little it changes
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 28;
 
 struct JpegErrors {
   jpeg_error_mgr manager;  // first: libjpeg hands out its address
@@ -36,17 +40,28 @@ void on_message(j_common_ptr jpeg, int level) {
   if (level < 0) on_error(jpeg);
 }
 
+// Asked many times a scan.
+void check_scans(j_common_ptr jpeg) {
+  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= max_scans) return;
+  auto* errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  *fmt::format_to_n(errors->message, sizeof errors->message - 1, "it has more than {} scans", max_scans).out = '\0';
+  std::longjmp(errors->jump, 1);
+}
+
 struct Jpeg {
   Jpeg() {
     decoder.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = on_error;
     errors.manager.emit_message = on_message;
     jpeg_create_decompress(&decoder);
+    decoder.mem->max_memory_to_use = max_jpeg_bytes;
+    decoder.progress = &progress;
   }
   ~Jpeg() { jpeg_destroy_decompress(&decoder); }
   Jpeg(const Jpeg&) = delete;
 
   jpeg_decompress_struct decoder;
+  jpeg_progress_mgr progress = {check_scans, 0, 0, 0, 0};
   JpegErrors errors;
 };
 
@@ -58,12 +73,18 @@ void run(Jpeg& jpeg, const std::string& name, const Calls& calls) {
   calls();
 }
 
-Image decode_jpeg(std::string_view bytes, const std::string& name) {
-  Jpeg jpeg;
+void read_header(Jpeg& jpeg, std::string_view bytes, const std::string& name) {
   run(jpeg, name, [&] {
     jpeg_mem_src(&jpeg.decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&jpeg.decoder, TRUE);
   });
+}
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
+
+Image decode_jpeg(std::string_view bytes, const std::string& name) {
+  Jpeg jpeg;
+  read_header(jpeg, bytes, name);
   if (jpeg.decoder.image_width > max_size || jpeg.decoder.image_height > max_size)
     throw InputError(fmt::format("{}: the image has {} x {} pixels; at most {} x {} are read", name,
                                  jpeg.decoder.image_width, jpeg.decoder.image_height, max_size, max_size));
@@ -85,24 +106,32 @@ Image decode_jpeg(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 Image decode_texture(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes, name);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, name);
   if (bytes.starts_with("\x89PNG") || bytes.empty()) return decode_png(bytes, name);
   throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", name));
 }
 
-Image read_texture(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  char head[3] = {};
-  in.read(head, sizeof head);
-  const std::string_view begin(head, static_cast<std::size_t>(in.gcount()));
-  if (begin != "\xff\xd8\xff") {
-    // What is missing or empty read_png has words for.
-    if (!begin.empty() && !begin.starts_with("\x89PN"))
-      throw InputError(fmt::format("{}: is neither a PNG nor a JPEG image; convert it to one of these", file.string()));
-    return read_png(file);
+std::size_t claimed_pixels(std::string_view bytes) {
+  if (!is_jpeg(bytes)) return claimed_png_pixels(bytes);
+  try {
+    Jpeg jpeg;
+    read_header(jpeg, bytes, "it");
+    return std::size_t{jpeg.decoder.image_width} * jpeg.decoder.image_height;
+  } catch (const InputError&) {
+    return 0;  // decoding it fails at once, too
   }
-  const std::string rest{std::istreambuf_iterator<char>(in), {}};
-  return decode_jpeg(std::string(head, sizeof head) + rest, file.string());
+}
+
+Image read_texture(const std::filesystem::path& file) {
+  std::error_code error;
+  // What is missing, empty or no regular file read_png has words for.
+  if (!std::filesystem::is_regular_file(file, error)) return read_png(file);
+  if (std::filesystem::file_size(file, error) > max_file_bytes)
+    throw InputError(
+        fmt::format("{}: larger than {} MiB; save the image smaller", file.string(), max_file_bytes >> 20));
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return bytes.empty() ? read_png(file) : decode_texture(bytes, file.string());
 }
 
 bool has_alpha(const Image& image) {

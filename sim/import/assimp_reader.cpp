@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Opens regular files of one folder tree and nothing else: a mesh may name any path as its material or buffer.
+// Opens the mesh and regular files of its folder tree, nothing else: it may name any path as its material or buffer.
 class FolderOnly : public Assimp::DefaultIOSystem {
  public:
   FolderOnly(const fs::path& file, const ImportLimits& limits) : folder_(file, limits.max_file_bytes) {}
@@ -34,18 +34,19 @@ class FolderOnly : public Assimp::DefaultIOSystem {
     return reads && allowed(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
   }
 
-  // The last path that was asked for outside the folder, or "".
-  const std::string& refused() const { return refused_; }
+  // Of the last path that was asked for outside the folder, or "".
+  const std::string& refusal() const { return refusal_; }
 
  private:
   bool allowed(const char* file) const {
     const MeshFolder::Answer answer = folder_.ask(fs::absolute(file));
-    if (answer == MeshFolder::Answer::outside) refused_ = file;
+    if (answer == MeshFolder::Answer::outside || answer == MeshFolder::Answer::link_outside)
+      refusal_ = outside_reason(file, answer);
     return answer == MeshFolder::Answer::allowed;
   }
 
   MeshFolder folder_;
-  mutable std::string refused_;
+  mutable std::string refusal_;
 };
 
 void keep_only(Assimp::Importer& importer, const std::string& extension) {
@@ -136,10 +137,8 @@ class Gatherer {
 };
 
 // Assimp's own words, or ours where it only repeats what a container threw.
-std::string reason(const std::string& assimp_error, const std::string& refused) {
-  if (!refused.empty())
-    return fmt::format("it refers to '{}', which is outside its own folder; keep all files of a mesh together",
-                       refused);
+std::string reason(const std::string& assimp_error, const std::string& refusal) {
+  if (!refusal.empty()) return refusal;
   if (assimp_error.find("bad_alloc") != assimp_error.npos) throw std::bad_alloc();
   return fmt::format("assimp cannot read it ({}); export it again, or in another format", assimp_error);
 }
@@ -156,7 +155,7 @@ PolygonSoup read_with_assimp(const fs::path& file, const ImportLimits& limits) {
   auto* folder = new FolderOnly(absolute, limits);  // the importer deletes it
   importer.SetIOHandler(folder);
   const aiScene* scene = importer.ReadFile(absolute.string(), 0);
-  if (!scene) throw InputError(reason(importer.GetErrorString(), folder->refused()));
+  if (!scene) throw InputError(reason(importer.GetErrorString(), folder->refusal()));
   return Gatherer(*scene, limits).soup();
 }
 

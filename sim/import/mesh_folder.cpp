@@ -1,7 +1,6 @@
 // Paths that lead out of a folder, and files that are read whole.
 #include "sim/import/mesh_folder.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,19 +9,23 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/file_trust.h"
 
 namespace billow::sim {
 
 namespace fs = std::filesystem;
 
 MeshFolder::MeshFolder(const fs::path& mesh_file, std::uintmax_t max_file_bytes)
-    : folder_(fs::canonical(fs::absolute(mesh_file).parent_path())), max_file_bytes_(max_file_bytes) {}
+    : folder_(fs::canonical(fs::absolute(mesh_file).parent_path())),
+      mesh_(fs::weakly_canonical(fs::absolute(mesh_file))),
+      max_file_bytes_(max_file_bytes) {}
 
 MeshFolder::Answer MeshFolder::ask(const fs::path& file) const {
   std::error_code error;
-  const fs::path path = fs::weakly_canonical(file.is_absolute() ? file : folder_ / file, error);
-  const auto [end, differs] = std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
-  if (error || end != folder_.end()) return Answer::outside;
+  const fs::path written = file.is_absolute() ? file : folder_ / file;
+  const fs::path path = fs::weakly_canonical(written, error);
+  if (error || (path != mesh_ && !is_below(path, folder_)))
+    return is_below(written.lexically_normal(), folder_) ? Answer::link_outside : Answer::outside;
   if (!fs::is_regular_file(path, error)) return Answer::missing;
   return fs::file_size(path, error) <= max_file_bytes_ ? Answer::allowed : Answer::too_large;
 }
@@ -30,8 +33,8 @@ MeshFolder::Answer MeshFolder::ask(const fs::path& file) const {
 std::string MeshFolder::read(const std::string& file) const {
   switch (ask(file)) {
     case Answer::outside:
-      throw InputError(
-          fmt::format("it refers to '{}', which is outside its own folder; keep all files of a mesh together", file));
+    case Answer::link_outside:
+      throw InputError(outside_reason(file, ask(file)));
     case Answer::missing:
       throw InputError(fmt::format("it refers to '{}', which is not there; keep all files of a mesh together", file));
     case Answer::too_large:
@@ -40,6 +43,11 @@ std::string MeshFolder::read(const std::string& file) const {
       break;
   }
   return read_bytes(folder_ / file);
+}
+
+std::string outside_reason(const std::string& file, MeshFolder::Answer answer) {
+  return fmt::format("it refers to '{}', which is {} its own folder; keep all files of a mesh together", file,
+                     answer == MeshFolder::Answer::link_outside ? "a link that leads out of" : "outside");
 }
 
 std::string read_bytes(const fs::path& file) {

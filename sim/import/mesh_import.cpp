@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <exception>
+#include <new>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/file_trust.h"
 #include "base/limited_process.h"
 #include "sim/import/assimp_reader.h"
 #include "sim/import/gltf_document.h"
@@ -42,6 +45,7 @@ std::string lower_extension(const fs::path& file) {
 void check_file(const fs::path& file, const ImportLimits& limits) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::none) throw InputError(fmt::format("it cannot be read: {}", error.message()));
   if (!fs::exists(status)) throw InputError("there is no such file; check the path");
   if (fs::is_directory(status)) throw InputError("it is a folder; name a file in it");
   if (!fs::is_regular_file(status)) throw InputError("it is not a plain file; name a mesh file");
@@ -77,6 +81,18 @@ PolygonSoup read_soup(const fs::path& file, const ImportLimits& limits) {
   }
 }
 
+// The same, where the file has to be a mesh before anything of it is shown.
+PolygonSoup read_unquoted_soup(const fs::path& file, const ImportLimits& limits) try {
+  return read_soup(file, limits);
+} catch (const std::bad_alloc&) {
+  throw;
+} catch (const std::exception&) {
+  throw InputError(fmt::format(
+      "it is damaged or no such mesh; 'billow mesh {}' says why: here nothing is shown of files outside of the named "
+      "one's folder",
+      file.lexically_normal().string()));
+}
+
 ProcessLimits process_limits(const fs::path& file, const ImportLimits& limits) {
   constexpr std::size_t bytes_per_vertex = 24 + 8 + 12 + 32 + 40;  // position, uv, colour, some groups; the layout
   constexpr std::size_t bytes_per_face = 3 * sizeof(Face);         // two of them of the layout; textures
@@ -92,8 +108,9 @@ ProcessLimits process_limits(const fs::path& file, const ImportLimits& limits) {
 
 Mesh import_mesh(const fs::path& file, const ImportLimits& limits) try {
   check_file(file, limits);
+  const auto& read = may_be_quoted(file) ? read_soup : read_unquoted_soup;
   return weld(
-      decode_soup(reply_of_child([&] { return encode_soup(read_soup(file, limits)); }, process_limits(file, limits))));
+      decode_soup(reply_of_child([&] { return encode_soup(read(file, limits)); }, process_limits(file, limits))));
 } catch (const InputError& error) {
   throw InputError(fmt::format("cannot read mesh {}: {}", file.string(), error.what()));
 }

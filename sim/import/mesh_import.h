@@ -23,8 +23,8 @@ struct ImportLimits {
 /// numbered as the file numbers them (STL, which has no numbers: in order of appearance). Quads stay quads; larger
 /// polygons become fans of triangles, concave ones triangles inside them. Groups are an OBJ's `g`, `o` and `usemtl`
 /// names, and the node, mesh and material names of other files. Reads in a forked child under `limits`; a crash, a hang
-/// or an over-large file becomes an InputError that names the file and the reason. Call it before any other thread
-/// exists.
+/// or an over-large file becomes an InputError that names the file and the reason; of a file that may not be quoted
+/// (base/file_trust.h) and is no mesh, without its words. Call it before any other thread exists.
 Mesh import_mesh(const std::filesystem::path& file, const ImportLimits& limits = {});
 
 }  // namespace billow::sim

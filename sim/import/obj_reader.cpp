@@ -78,6 +78,19 @@ class VertexPass {
     builder_.add_texture({value[0], value[1]});
   }
 
+  static std::string_view reason_without(MeshFolder::Answer answer) {
+    switch (answer) {
+      case MeshFolder::Answer::outside:
+        return "it is outside the mesh's folder";
+      case MeshFolder::Answer::link_outside:
+        return "it is a link that leads out of the mesh's folder";
+      case MeshFolder::Answer::too_large:
+        return "it is too large";
+      default:
+        return "there is no such file";
+    }
+  }
+
   // One file whose name may have blanks, or several.
   void add_library(const std::string& names) {
     std::vector<std::string> files{names};
@@ -86,10 +99,8 @@ class VertexPass {
       for (Words words(names, '\0'); words.more();) files.emplace_back(words.next());
     }
     for (const std::string& file : files) {
-      if (folder_.ask(file) != MeshFolder::Answer::allowed) {
-        const bool outside = folder_.ask(file) == MeshFolder::Answer::outside;
-        builder_.ignore(fmt::format("material library '{}' ({})", file,
-                                    outside ? "it is outside the mesh's folder" : "there is no such file"));
+      if (const MeshFolder::Answer answer = folder_.ask(file); answer != MeshFolder::Answer::allowed) {
+        builder_.ignore(fmt::format("material library '{}' ({})", file, reason_without(answer)));
         continue;
       }
       for (Material& material : read_mtl(folder_.read(file), [&](const std::string& what) { builder_.ignore(what); }))

@@ -1,4 +1,5 @@
 // What a body looks like: by the scene, or by its mesh's file; and where its mesh is put.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -79,6 +80,23 @@ TEST_F(SceneLook, ATextureOutsideTheMeshesFolderIsNotOpened) {
   folder_.write("inner/two.obj", "mtllib two.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder_.write("inner/two.mtl", "newmtl a\nmap_Kd ../lace.png\n");
   EXPECT_THAT(warnings("cloth: {mesh: inner/two.obj}"), testing::Contains(HasSubstr("outside its own folder")));
+}
+
+// Headers that claim 2^26 pixels each, without any behind them: a damaged texture costs as much time as a good one.
+TEST_F(SceneLook, TexturesHaveSoManyPixelsInAll) {
+  const std::string claim("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x20\0\0\0\x20\0\x08\x02\0\0\0", 29);
+  folder_.write("claim.png", claim);
+  std::string library, mesh = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    library += std::string("newmtl ") + name + "\nmap_Kd claim.png\n";
+    mesh += std::string("usemtl ") + name + "\nf 1 2 3\n";
+  }
+  folder_.write("many.mtl", library);
+  folder_.write("many.obj", mesh);
+  const std::vector<std::string> told = warnings("cloth: {mesh: many.obj}");
+  for (const char* name : {"a", "d"})
+    EXPECT_THAT(told, testing::Contains(HasSubstr(fmt::format("of material '{}': it: the PNG image is cut", name))));
+  EXPECT_THAT(told, testing::Contains(HasSubstr("of material 'e': with it, the scene's textures have more than 2^28")));
 }
 
 TEST_F(SceneLook, TheHashCountsTexturesOfMaterials) {

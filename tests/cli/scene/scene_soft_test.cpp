@@ -73,7 +73,7 @@ TEST_F(SceneSoft, IsRefusedWithThePlace) {
   EXPECT_EQ(error("soft: {mesh: block.obj, variation: {mass: x}}"),
             "scene.yaml:2:53: the variation of mass must be above 0 everywhere; at vertex 0 (0, 0, 0) it is 0");
   EXPECT_EQ(error("soft: {mesh: block.obj, variation: {stiffness: 1 +}}").substr(0, 54),
-            "scene.yaml:2:58: the expression '1 +' cannot be evalua");
+            "scene.yaml:2:58: in the formula '1 +', at its characte");
 }
 
 TEST_F(SceneSoft, NeedsAClosedMesh) {

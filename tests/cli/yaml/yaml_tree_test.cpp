@@ -160,6 +160,14 @@ TEST(YamlTree, WritesWhatItReadsBack) {
   EXPECT_EQ(to_yaml(*parse_yaml(written, "f")), written);
 }
 
+TEST(YamlTree, WritesOutWhatIsNotPrintable) {
+  const NodePtr root = parse_yaml(R"({"a: b": "\u202e\x9b\U000e0041ä", list: [{"\u200b": 1}]})", "f");
+  const std::string line = to_yaml_line(*root);
+  EXPECT_EQ(line, R"({"a: b": "\u202e\u009b\U000e0041ä", list: [{"\u200b": 1}]})");
+  EXPECT_EQ(to_yaml_line(*parse_yaml(line, "f")), line);
+  EXPECT_EQ(to_yaml(*parse_yaml(to_yaml(*root), "f")), to_yaml(*root));
+}
+
 TEST(YamlTree, QuotesWordsThatWouldReadAsSomethingElse) {
   for (const std::string word : {"-",  "--", "~",  "null", "a: b", "a #b", "#a",  "[a", "*a", "&a", "!a",
                                  "%a", "@a", "'a", " a",   "a ",   "é",    "a,b", "<<", "?",  "|",  ">"}) {

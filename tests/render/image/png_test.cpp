@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,6 +30,12 @@ Image pattern(int width, int height, int channels) {
   Image image(width, height, channels);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(i * 31 + i / 7);
   return image;
+}
+
+long peak_mebibytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss >> 10;
 }
 
 int files_in(const std::filesystem::path& folder) {
@@ -143,6 +150,35 @@ TEST_F(Png, RefusesEveryFlippedByte) {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x55);
     EXPECT_NE(fault(bad), "") << "byte " << i;
+  }
+}
+
+// A text of a gigabyte is claimed by one chunk and unpacked from the other.
+TEST_F(Png, SkipsWhatIsNotPixels) {
+  const std::string good = png_bytes({.width = 2}, "abcdef"), head = good.substr(0, 33), rest = good.substr(33);
+  EXPECT_EQ(read(head + test::png_chunk("tEXt", std::string("a\0b", 3)) + rest).width, 2);
+  EXPECT_EQ(read(head + test::png_chunk("zTXt", std::string("a\0\0no deflate", 13)) + rest).width, 2);
+  std::string claims = test::png_chunk("tEXt", std::string("a\0b", 3));
+  claims[0] = 0x3f;
+  const long before = peak_mebibytes();
+  EXPECT_THAT(fault(head + claims), HasSubstr("damaged"));
+  EXPECT_LT(peak_mebibytes(), before + 64);
+}
+
+TEST_F(Png, RefusesAClaimThatItsBytesCannotHold) {
+  std::string bytes = png_bytes({.width = 8192}, std::string(3 * 8192, ' '));
+  bytes[22] = '\x20';  // of the height's four bytes from 20 on
+  bytes[23] = '\0';
+  EXPECT_THAT(fault(bytes), HasSubstr("8192 x 8192 pixels do not fit in it"));
+}
+
+TEST_F(Png, RefusesToWaitForAPipe) {
+  ASSERT_EQ(mkfifo(path("pipe.png").c_str(), 0600), 0);
+  try {
+    read_png(path("pipe.png"));
+    ADD_FAILURE() << "a pipe was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is not a regular file"));
   }
 }
 
