@@ -20,10 +20,11 @@ struct Span {
 
 // In ascending order. Unicode's Cc, Zl and Zp; of its Cf what has no shape of its own; letters without a shape;
 // private ones and those that are none, which a font may show as anything.
-constexpr Span unprintable[] = {
-    {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x115F, 0x1160},   {0x17B4, 0x17B5},
-    {0x180B, 0x180F}, {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0x3164, 0x3164},   {0xE000, 0xF8FF},
-    {0xFDD0, 0xFDEF}, {0xFEFF, 0xFEFF}, {0xFFA0, 0xFFA0}, {0xFFF0, 0xFFFB}, {0xE0000, 0x10FFFF}};
+constexpr Span unprintable[] = {{0x00, 0x1F},     {0x7F, 0x9F},       {0xAD, 0xAD},       {0x34F, 0x34F},
+                                {0x61C, 0x61C},   {0x115F, 0x1160},   {0x17B4, 0x17B5},   {0x180B, 0x180F},
+                                {0x200B, 0x200F}, {0x2028, 0x202E},   {0x2060, 0x206F},   {0x3164, 0x3164},
+                                {0xE000, 0xF8FF}, {0xFDD0, 0xFDEF},   {0xFEFF, 0xFEFF},   {0xFFA0, 0xFFA0},
+                                {0xFFF0, 0xFFFB}, {0x1D173, 0x1D17A}, {0xE0000, 0x10FFFF}};
 
 bool is_printable(char32_t code) {
   const auto* span = std::lower_bound(std::begin(unprintable), std::end(unprintable), code,
@@ -93,11 +94,13 @@ void say_text(std::string_view lines) { write_aside(printable_lines(lines)); }
 
 void say_message(std::string_view line) {
   constexpr std::size_t longest = 4000;
-  if (line.size() <= longest) return write_aside(printable(line) + "\n");
-  std::size_t head = longest * 3 / 4, tail = line.size() - longest / 4;
-  while (head < tail && is_continuation(line[head])) ++head;
-  while (tail < line.size() && is_continuation(line[tail])) ++tail;
-  write_aside(fmt::format("{} … {}\n", printable(line.substr(0, head)), printable(line.substr(tail))));
+  const std::string text = printable(line);
+  if (text.size() <= longest) return write_aside(text + "\n");
+  std::size_t head = longest * 3 / 4, tail = text.size() - longest / 4;
+  while (is_continuation(text[head])) --head;
+  while (tail < text.size() && is_continuation(text[tail])) ++tail;
+  const std::string_view shown = text;
+  write_aside(fmt::format("{} … {}\n", shown.substr(0, head), shown.substr(tail)));
 }
 
 void say_json(std::string_view json) { write_aside(printable_json(json) + "\n"); }

@@ -37,6 +37,17 @@ TEST(Terminal, WritesOutBytesThatAreNoCharacters) {
             "\\x9b31m");
 }
 
+// However long what it quotes is.
+TEST(Terminal, LeavesOutTheMiddleOfALongMessage) {
+  testing::internal::CaptureStderr();
+  say_line("scene.yaml:1:1: {}; the end", std::string(100'000, '\x1b'));
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_LT(said.size(), 4010u);
+  EXPECT_EQ(said.rfind("scene.yaml:1:1: \\x1b", 0), 0u);
+  EXPECT_NE(said.find(" … "), std::string::npos);
+  EXPECT_EQ(said.substr(said.size() - 13), "x1b; the end\n");
+}
+
 TEST(Terminal, KeepsTheEndsOfLinesOfItsOwn) { EXPECT_EQ(printable_lines("one\ntwo\r\n"), "one\ntwo\\r\n"); }
 
 TEST(Terminal, LeavesJsonTheValueThatItWas) {
