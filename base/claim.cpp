@@ -243,6 +243,13 @@ std::variant<Claim, ClaimHolder> take_claim(const fs::path& file) {
   throw OutputError(fmt::format("cannot claim {}: it comes and goes", file.string()));
 }
 
+// Whether a holder elsewhere is dead only the file system's clock could tell.
+void remove_dead_claim(const fs::path& file) {
+  const auto is_dead = [](const Standing& standing) { return standing.holder.is_near && !lives(standing, 0); };
+  const std::optional<Standing> standing = look_at(file);
+  if (standing && is_dead(*standing)) remove_if(file, is_dead);
+}
+
 std::optional<ClaimHolder> claim_holder(const fs::path& file) {
   const std::optional<Standing> standing = look_at(file);
   if (!standing || !lives(*standing, std::time(nullptr))) return std::nullopt;

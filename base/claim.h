@@ -48,6 +48,9 @@ class Claim {
 /// be made, InputError when something that is no file is in its place.
 std::variant<Claim, ClaimHolder> take_claim(const std::filesystem::path& file);
 
+/// Removes the claim `file` where its holder was a process of this machine and is dead. Throws as take_claim.
+void remove_dead_claim(const std::filesystem::path& file);
+
 /// Who holds the claim `file` now, if anyone who may be alive does. Throws InputError as take_claim.
 std::optional<ClaimHolder> claim_holder(const std::filesystem::path& file);
 

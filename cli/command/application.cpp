@@ -252,7 +252,8 @@ void add_compare(CLI::App& app, Request& r) {
 }
 
 void add_study(CLI::App& app, Request& r) {
-  CLI::App& c = *app.add_subcommand("study", "Run a scene over axes of variation; make pictures, tables and a page");
+  CLI::App& c = *app.add_subcommand(
+      "study", "Run a scene over axes of variation; make pictures, tables and a page; several may share a folder");
   add_named_file(c, "STUDY", r.study.study, "Study file (YAML)", r);
   c.add_option("-o,--output", r.study.output, "Folder to write to (default: out/ and the study's name)")
       ->type_name("DIR");

@@ -129,6 +129,8 @@ int assemble(const StudyPlan& plan) {
   write_file_atomically(plan.folder / study_files::table, results_csv(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / study_files::record, study_json(plan.study, plan.runs, results));
   write_file_atomically(plan.folder / study_files::page, study_page(contents));
+  // Of a process that was killed when its run was done already, and that nobody had to take over.
+  for (const StudyRun& run : plan.runs) remove_dead_claim(plan.claim_of(run.number));
   const std::size_t lacking = report_shortfalls(plan, results);
   say_line("wrote {} pictures, results.csv, study.json and index.html to {}{}",
            plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),

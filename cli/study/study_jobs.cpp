@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <map>
@@ -50,7 +51,8 @@ int open_log(const std::filesystem::path& file) {
   dup2(log, STDERR_FILENO);
   execve("/proc/self/exe", arguments, environ);
   static constexpr char words[] = "this program cannot be started again\n";
-  if (write(STDERR_FILENO, words, sizeof words - 1) < 0) _exit(EXIT_FAILURE);
+  const ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
+  static_cast<void>(written);  // the status tells as well
   _exit(EXIT_FAILURE);
 }
 

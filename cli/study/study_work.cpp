@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/atomic_file.h"
 #include "base/claim.h"
+#include "base/error.h"
 #include "base/regular_file.h"
 #include "cli/run/output_folder.h"
 #include "cli/study/study_jobs.h"
@@ -24,7 +27,12 @@ namespace fs = std::filesystem;
 // The last line that a run left in its log: what it died of.
 std::string last_words(const fs::path& log) {
   constexpr std::size_t enough = 4 << 10;
-  std::string text = read_tail(log, enough);
+  std::string text;
+  try {
+    text = read_tail(log, enough);
+  } catch (const InputError& error) {
+    return error.what();
+  }
   text.erase(std::min(text.find_last_not_of('\n') + 1, text.size()));
   const std::size_t begin = text.rfind('\n') + 1;  // npos + 1 is 0
   return text.empty() ? "it left no message" : text.substr(begin);

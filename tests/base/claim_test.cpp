@@ -123,6 +123,21 @@ TEST_F(ClaimTest, OfAnotherMachineCountsWhileItGivesSignsOfLife) {
   EXPECT_TRUE(is_taken(take_claim(file_)));
 }
 
+TEST_F(ClaimTest, IsClearedAwayWhereItsHolderIsKnownToBeDead) {
+  remove_dead_claim(file_);  // there is none
+  leave_claim_of_dead_child();
+  remove_dead_claim(file_);
+  EXPECT_TRUE(names_left().empty());
+  leave_claim_of_dead_child();
+  move_to_another_machine(std::chrono::hours(1));
+  remove_dead_claim(file_);
+  EXPECT_TRUE(fs::exists(file_));
+  fs::remove(file_);
+  const auto claim = take_claim(file_);
+  remove_dead_claim(file_);
+  EXPECT_TRUE(std::get<Claim>(claim).renew());
+}
+
 TEST_F(ClaimTest, ThatSaysNothingCountsByItsAge) {
   std::ofstream(file_) << "\xff garbage";
   EXPECT_FALSE(is_taken(take_claim(file_)));
