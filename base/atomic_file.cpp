@@ -41,13 +41,6 @@ const std::string& own_numbering() {
   return numbers;
 }
 
-// Unique in this process and, with the process's number, on this machine.
-std::filesystem::path temporary_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter{0};
-  return target.parent_path() /
-         fmt::format(".{}.{}-{}-{}{}", target.filename().string(), own_numbering(), getpid(), counter++, ending);
-}
-
 // What a temporary file's name says of who writes it.
 struct Writer {
   std::string numbering;
@@ -79,6 +72,12 @@ void require_file_or_nothing(const std::filesystem::path& target) {
 }
 
 }  // namespace
+
+std::filesystem::path temporary_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return target.parent_path() /
+         fmt::format(".{}.{}-{}-{}{}", target.filename().string(), own_numbering(), getpid(), counter++, ending);
+}
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
   require_file_or_nothing(target);

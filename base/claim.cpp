@@ -21,6 +21,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder_lock.h"
 #include "base/regular_file.h"
@@ -163,7 +164,7 @@ bool lives(const Standing& standing, std::time_t now) {
 class Draft {
  public:
   explicit Draft(const fs::path& file) : mark_(unique_mark()), text_(claim_text(mark_)), wanted_(file) {
-    own_ = hidden_name(file, mark_);
+    own_ = temporary_name(file);
     write_to(own_);
     struct stat status = {};
     if (stat(own_.c_str(), &status) != 0) fail(file);
@@ -172,10 +173,6 @@ class Draft {
   ~Draft() { unlink(own_.c_str()); }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
-
-  static fs::path hidden_name(const fs::path& file, const std::string& mark) {
-    return file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), mark);
-  }
 
   const std::string& text() const { return text_; }
   // Now, as the file system tells time.
@@ -214,7 +211,7 @@ void remove_if(const fs::path& file, const std::function<bool(const Standing&)>&
   const FolderLock lock(file.has_parent_path() ? file.parent_path() : fs::path("."));
   const std::optional<Standing> present = look_at(file);
   if (!present || !may_go(*present)) return;
-  const fs::path aside = Draft::hidden_name(file, unique_mark());
+  const fs::path aside = temporary_name(file);
   if (std::rename(file.c_str(), aside.c_str()) != 0) {
     if (errno == ENOENT) return;
     fail(file);

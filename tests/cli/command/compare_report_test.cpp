@@ -91,7 +91,7 @@ TEST_F(CompareReport, LooksAsItShould) {
   fs::remove(folder_.path() / "a/broken.png");
   for (const char* name : {"a/size.png", "b/size.png", "b/new.png", "b/broken.png"}) fs::remove(folder_.path() / name);
   ASSERT_EQ(test::run_tool({"compare", "a", "b", "--report", "look"}, folder_.path()).status, 3);
-  const test::Screenshot shot = test::screenshot(folder_.path() / "look", "index.html", 900, 900);
+  const test::Screenshot shot = test::screenshot(folder_.path() / "look", "index.html", 900, 1250);
   EXPECT_THAT(shot.console, IsEmpty());
   EXPECT_GOLDEN(shot.image, "compare_report");
 }
