@@ -99,13 +99,20 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
       ->allow_extra_args(false);
 }
 
+// The value that one of an enumeration's words stands for.
+template <class Enum>
+Enum parse_word(const std::string& option, const std::string& text) {
+  for (const auto& [word, value] : words(Enum()))
+    if (word == text) return value;
+  throw CLI::ValidationError(option,
+                             fmt::format("there is no '{}'{}", text, suggestion(text, all_words<Enum>(), "it takes")));
+}
+
 void add_progress(CLI::App& command, ProgressStyle& style) {
-  static const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::automatic},
-                                                              {"plain", ProgressStyle::plain},
-                                                              {"json", ProgressStyle::json},
-                                                              {"none", ProgressStyle::none}};
-  command.add_option("--progress", style, "auto, plain, json or none")
-      ->transform(CLI::CheckedTransformer(styles))
+  command
+      .add_option_function<std::string>(
+          "--progress", [&style](const std::string& text) { style = parse_word<ProgressStyle>("--progress", text); },
+          "auto, plain, json or none, which leaves errors alone (default: auto)")
       ->type_name("STYLE");
 }
 

@@ -61,7 +61,9 @@ int doctor_command() {
   line("fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   line("compiler", __VERSION__);
   line("processor", fmt::format("{} threads, {}", std::thread::hardware_concurrency(), cpu_features()));
-  line("ffmpeg", has_program("ffmpeg") ? "found" : "missing: only needed to turn frames into a video");
+  line("gnuplot",
+       has_program("gnuplot") ? "found" : "missing: plots of 'study' and 'filter' are not drawn (gnuplot-nox)");
+  line("ffmpeg", has_program("ffmpeg") ? "found" : "missing: 'video' makes no film (ffmpeg)");
   try {
     line("GL", gl_description());
   } catch (const std::exception& error) {

@@ -29,6 +29,14 @@ std::string time_left(double left) {
 
 }  // namespace
 
+Words<ProgressStyle> words(ProgressStyle) {
+  static constexpr Word<ProgressStyle> list[] = {{"auto", ProgressStyle::automatic},
+                                                 {"plain", ProgressStyle::plain},
+                                                 {"json", ProgressStyle::json},
+                                                 {"none", ProgressStyle::none}};
+  return list;
+}
+
 Progress::Progress(ProgressStyle style, Clock::time_point begin)
     : style_(style),
       redraw_(style == ProgressStyle::automatic && isatty(STDERR_FILENO)),
@@ -94,6 +102,7 @@ void Progress::print_line(long done, double time) {
 }
 
 void Progress::say(const std::string& line) {
+  if (style_ == ProgressStyle::none) return;
   end();
   style_ == ProgressStyle::json ? say_json(json_text(Json{{"message", line}})) : say_message(line);
 }

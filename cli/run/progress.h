@@ -7,10 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "base/words.h"
+
 namespace billow::cli {
 
-/// `automatic` is one redrawn line on a terminal and plain lines elsewhere; `json` is one object per line.
+/// `automatic` is one redrawn line on a terminal and plain lines elsewhere; `json` is one object per line; `none`
+/// leaves errors alone.
 enum class ProgressStyle { automatic, plain, json, none };
+Words<ProgressStyle> words(ProgressStyle);
 
 /// A phase of a command, all its pieces together.
 struct PhaseTime {

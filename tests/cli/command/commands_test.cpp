@@ -98,6 +98,33 @@ TEST_F(Commands, CompareTellsEqualFromDifferent) {
   EXPECT_EQ(run({"compare", "a", "scene.yaml"}).status, 4);
 }
 
+TEST_F(Commands, ProgressNoneLeavesErrorsAlone) {
+  const std::string size = "render.size=[32, 24]";
+  const ToolResult good =
+      run({"render", "scene.yaml", "-D", "duration=0.1", "-D", size, "-o", "quiet", "--progress", "none"});
+  EXPECT_EQ(good.status, 0);
+  EXPECT_EQ(good.output + good.errors, "");
+  const ToolResult bad = run({"render", "scene.yaml", "-o", "quiet", "--progress", "none"});
+  EXPECT_EQ(bad.status, 6);
+  EXPECT_NE(bad.errors.find("already holds files"), std::string::npos) << bad.errors;
+}
+
+TEST_F(Commands, HelpListsWords) {
+  EXPECT_NE(run({"render", "--help"}).output.find("auto, plain, json or none"), std::string::npos);
+  EXPECT_EQ(run({"render", "--help"}).output.find("->"), std::string::npos);
+  const ToolResult wrong = run({"render", "scene.yaml", "--progress", "jsn"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.errors.find("there is no 'jsn'; did you mean 'json'?"), std::string::npos) << wrong.errors;
+}
+
+TEST_F(Commands, DoctorSaysWhatIsMissingAndWhatThatCosts) {
+  const ToolResult found = run({"doctor"});
+  EXPECT_NE(found.output.find("gnuplot      found"), std::string::npos) << found.output;
+  const ToolResult bare = test::run_program("env", {"PATH=/nowhere", BILLOW_TOOL, "doctor"}, folder_.path());
+  EXPECT_NE(bare.output.find("missing: plots of 'study' and 'filter' are not drawn"), std::string::npos);
+  EXPECT_NE(bare.output.find("missing: 'video' makes no film"), std::string::npos);
+}
+
 TEST_F(Commands, DoctorFindsTheRenderer) {
   const ToolResult result = run({"doctor"});
   EXPECT_EQ(result.status, 0) << result.errors;
