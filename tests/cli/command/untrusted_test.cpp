@@ -97,10 +97,10 @@ TEST_F(Untrusted, NamesReachTheTerminalAsText) {
 }
 
 TEST_F(Untrusted, ThePrintedSceneReadsBackWhateverItsNames) {
-  write("job/scene.yaml", test::edited(test::base_scene, "name: sheet", "name: \"\\u202e\\x9b日\""));
+  write("job/scene.yaml", test::edited(test::base_scene, "name: sheet", "name: \"\\u202e\\u200b日\""));
   const ToolResult first = run({"check", "job/scene.yaml"});
   ASSERT_EQ(first.status, 0) << first.errors;
-  EXPECT_THAT(first.output, HasSubstr("name: \"\\u202e\\u009b日\""));
+  EXPECT_THAT(first.output, HasSubstr("name: \"\\u202e\\u200b日\""));
   write("job/again.yaml", first.output);
   EXPECT_EQ(run({"check", "job/again.yaml"}).output, first.output);
 }
