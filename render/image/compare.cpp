@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -121,17 +122,17 @@ struct RowComparison::Similarity {
   double sum = 0.0;
 };
 
-/// Which differing pixels lie at an edge that both images have: where the luma around one spans more than it does on a
+/// Which differing pixels lie at an edge that both images have: where a channel spans more around one than it does on a
 /// surface in both, a silhouette that is a fraction of a pixel aside explains the difference.
 struct RowComparison::Edges {
-  static constexpr double least_edge = 24.0;  // [1/255]
+  static constexpr int least_edge = 24;  // [1/255]
   static constexpr Eigen::Index rows = 3;
 
-  explicit Edges(Eigen::Index width) : a(width, rows), b(width, rows), differs(width, rows) {}
+  Edges(int width, int a_channels, int b_channels) : width(width), a(a_channels), b(b_channels), differs(width, rows) {}
 
-  void add_row(const Eigen::ArrayXd& luma_a, const Eigen::ArrayXd& luma_b, const Eigen::ArrayXd& over) {
-    a.col(added % rows) = luma_a;
-    b.col(added % rows) = luma_b;
+  void add_row(const std::uint8_t* row_a, const std::uint8_t* row_b, const Eigen::ArrayXd& over) {
+    a.set(added, row_a, width);
+    b.set(added, row_b, width);
     differs.col(added % rows) = over;
     if (++added > 1) judge(added - 2, added);
   }
@@ -142,24 +143,47 @@ struct RowComparison::Edges {
   }
 
  private:
+  /// The last rows of an image.
+  struct Window {
+    explicit Window(int channels) : channels(channels) {}
+
+    void set(Eigen::Index row, const std::uint8_t* pixels, Eigen::Index width) {
+      row_at(row).assign(pixels, pixels + width * channels);
+    }
+
+    // Of the channel that has most, among the pixels around one, of the rows before `end`.
+    int span(Eigen::Index x, Eigen::Index row, Eigen::Index end, Eigen::Index width) {
+      int most = 0;
+      for (int c = 0; c < 3; ++c) {
+        int low = 255, high = 0;
+        for (Eigen::Index v = std::max<Eigen::Index>(row - 1, 0); v < std::min(row + 2, end); ++v)
+          for (Eigen::Index u = std::max<Eigen::Index>(x - 1, 0); u < std::min(x + 2, width); ++u) {
+            const int value = row_at(v)[static_cast<std::size_t>(u * channels + c)];
+            low = std::min(low, value);
+            high = std::max(high, value);
+          }
+        most = std::max(most, high - low);
+      }
+      return most;
+    }
+
+    std::vector<std::uint8_t>& row_at(Eigen::Index row) { return held[static_cast<std::size_t>(row % rows)]; }
+
+    int channels;
+    std::array<std::vector<std::uint8_t>, rows> held;
+  };
+
   // A row, of the rows before `end`.
   void judge(Eigen::Index row, Eigen::Index end) {
-    for (Eigen::Index x = 0; x < a.rows(); ++x)
-      if (differs(x, row % rows) != 0.0 && (span(a, x, row, end) <= least_edge || span(b, x, row, end) <= least_edge))
+    for (Eigen::Index x = 0; x < width; ++x)
+      if (differs(x, row % rows) != 0.0 &&
+          (a.span(x, row, end, width) <= least_edge || b.span(x, row, end, width) <= least_edge))
         ++off_edges;
   }
 
-  static double span(const Eigen::ArrayXXd& luma, Eigen::Index x, Eigen::Index row, Eigen::Index end) {
-    const Eigen::Index from = std::max<Eigen::Index>(x - 1, 0), count = std::min(x + 2, luma.rows()) - from;
-    double low = luma(x, row % rows), high = low;
-    for (Eigen::Index y = std::max<Eigen::Index>(row - 1, 0); y < std::min(row + 2, end); ++y) {
-      low = std::min(low, luma.col(y % rows).segment(from, count).minCoeff());
-      high = std::max(high, luma.col(y % rows).segment(from, count).maxCoeff());
-    }
-    return high - low;
-  }
-
-  Eigen::ArrayXXd a, b, differs;
+  Eigen::Index width;
+  Window a, b;
+  Eigen::ArrayXXd differs;
   Eigen::Index added = 0;
   std::int64_t off_edges = 0;
 };
@@ -188,7 +212,7 @@ RowComparison::RowComparison(const Shape& a, const Shape& b, const ComparisonOpt
         fmt::format("the images differ in size: {} x {} and {} x {}", a.width, a.height, b.width, b.height));
   if (a.width <= 0 || a.height <= 0) throw InputError("the images have no pixels");
   similarity_ = std::make_unique<Similarity>(a.width, a.height);
-  edges_ = std::make_unique<Edges>(a.width);
+  edges_ = std::make_unique<Edges>(a.width, a.channels, b.channels);
   if (options.flip) flips_ = std::make_unique<Flips>(a.width, a.height);
 }
 
@@ -219,7 +243,7 @@ void RowComparison::add_row(const std::uint8_t* a, const std::uint8_t* b, const 
   sum_ += static_cast<double>(sum);
   squares_ += static_cast<double>(squares);
   similarity_->add_row(luma_a, luma_b, counted);
-  edges_->add_row(luma_a, luma_b, over);
+  edges_->add_row(row_a, row_b, over);
   if (flips_) {
     flips_->waiting.push_back(counted);
     flips_->flip.add_row(row_a, a_channels_, row_b, b_channels_);

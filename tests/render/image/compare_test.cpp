@@ -98,6 +98,23 @@ TEST(WithinTolerance, HoldsEachOfItsThreeLimits) {
   EXPECT_FALSE(within_tolerance(compare(noisy(20, 20), spot)));
 }
 
+// Also where one colour meets another of the same lightness.
+TEST(Compare, FindsEdgesInAnyChannel) {
+  const auto halves = [](int border) {
+    Image image(20, 10);
+    for (int y = 0; y < 10; ++y)
+      for (int x = 0; x < 20; ++x) {
+        image.row(y)[3 * x] = x < border ? 60 : 120;
+        image.row(y)[3 * x + 1] = x < border ? 130 : 120;
+        image.row(y)[3 * x + 2] = x < border ? 200 : 124;
+      }
+    return image;
+  };
+  EXPECT_EQ(compare(halves(10), halves(11)).over, 10);
+  EXPECT_EQ(compare(halves(10), halves(11)).over_off_edges, 0);
+  EXPECT_EQ(compare(halves(10), halves(12)).over_off_edges, 20);  // each column touches one of the edges only
+}
+
 // Wang et al.'s windows one by one, as their paper has them.
 double direct_ssim(const Image& a, const Image& b) {
   const auto luma = [](const Image& image, int x, int y) {
