@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/process_space.h"
 
 namespace billow {
 namespace {
@@ -24,15 +25,10 @@ std::atomic<bool> durable = false;
 
 constexpr std::string_view ending = ".part";
 
-// What processes with one count of numbers have in common, as a temporary file's name has it: those of a machine, or
-// of a container on it.
+// A short form of where process numbers mean something, as a temporary file's name has it.
 std::string numbering() {
-  char host[256] = {}, space[64] = {};
-  gethostname(host, sizeof host - 1);
-  if (readlink("/proc/self/ns/pid", space, sizeof space - 1) < 0) space[0] = '\0';
   std::uint32_t hash = 2166136261u;  // FNV-1a
-  for (const char* text : {host, space})
-    for (const char* c = text; *c; ++c) hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619u;
+  for (const char c : process_space()) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
   return fmt::format("{:08x}", hash);
 }
 
@@ -75,8 +71,9 @@ void require_file_or_nothing(const std::filesystem::path& target) {
 
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() /
-         fmt::format(".{}.{}-{}-{}{}", target.filename().string(), own_numbering(), getpid(), counter++, ending);
+  constexpr std::size_t longest = 200;  // [byte] of the file's own name: with the rest no more than file systems take
+  return target.parent_path() / fmt::format(".{}.{}-{}-{}{}", target.filename().string().substr(0, longest),
+                                            own_numbering(), getpid(), counter++, ending);
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {

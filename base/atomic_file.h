@@ -41,8 +41,8 @@ class AtomicFile {
   std::FILE* stream_ = nullptr;
 };
 
-/// A hidden name beside `target` for a file on its way to that name: unique in this process and, by the process's number,
-/// on this machine. remove_strays() knows it.
+/// A hidden name beside `target` for a file on its way to that name: unique in this process and, by the process's
+/// number, on this machine. remove_strays() knows it.
 std::filesystem::path temporary_name(const std::filesystem::path& target);
 
 /// Removes from `folder` the temporary files of processes that are gone: of this machine's by their numbers, of other

@@ -24,6 +24,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder_lock.h"
+#include "base/process_space.h"
 #include "base/regular_file.h"
 
 namespace billow {
@@ -39,37 +40,6 @@ constexpr int most_looks = 1000;
 }
 
 // ---- who a process is ----
-
-// Only what may stand in a line of a claim and of a message: the file may hold anything.
-std::string plain(std::string_view text) {
-  std::string out(text.substr(0, 255));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return out;
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "?";
-  return plain(name.data());
-}
-
-std::string first_line(const char* file) {
-  try {
-    const std::string text = read_regular_file(file, max_bytes);
-    return plain(std::string_view(text).substr(0, text.find('\n')));
-  } catch (const InputError&) {
-    return "?";
-  }
-}
-
-// Process numbers mean something among those that share this: one boot of one machine, in one container.
-std::string process_space() {
-  std::array<char, 64> name{};
-  const ssize_t size = readlink("/proc/self/ns/pid", name.data(), name.size());
-  return fmt::format("{}/{}/{}", host_name(), first_line("/proc/sys/kernel/random/boot_id"),
-                     plain({name.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))}));
-}
 
 /// What the kernel says of a process besides its number, which is given to another one day.
 struct ProcessState {
@@ -140,9 +110,9 @@ std::optional<Standing> look_at(const fs::path& file) {
   if (stat(file.c_str(), &status) != 0) return std::nullopt;
   standing.touched = status.st_mtim.tv_sec;
   standing.space = value_of(standing.text, "space"), standing.started = value_of(standing.text, "started");
-  standing.holder.host = plain(value_of(standing.text, "host"));
+  standing.holder.host = plain_ascii(value_of(standing.text, "host"));
   std::istringstream(value_of(standing.text, "process")) >> standing.holder.process;
-  standing.holder.since = plain(value_of(standing.text, "since"));
+  standing.holder.since = plain_ascii(value_of(standing.text, "since"));
   standing.holder.is_near = standing.holder.process > 0 && standing.space == process_space();
   return standing;
 }
@@ -165,7 +135,9 @@ class Draft {
  public:
   explicit Draft(const fs::path& file) : mark_(unique_mark()), text_(claim_text(mark_)), wanted_(file) {
     own_ = temporary_name(file);
-    write_to(own_);
+    unfinished_.emplace(own_, new_file, 0666);
+    if (unfinished_->descriptor() < 0) fail(file);
+    fill(unfinished_->descriptor(), own_);
     struct stat status = {};
     if (stat(own_.c_str(), &status) != 0) fail(file);
     time_ = status.st_mtim.tv_sec;
@@ -189,19 +161,28 @@ class Draft {
  private:
   // False when the file exists.
   bool write_to(const fs::path& file) const {
-    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int descriptor = open(file.c_str(), new_file, 0666);
     if (descriptor < 0 && errno == EEXIST) return false;
     if (descriptor < 0) fail(wanted_);
+    fill(descriptor, file);
+    return true;
+  }
+
+  // Closes it too.
+  void fill(int descriptor, const fs::path& file) const {
     const bool whole = write(descriptor, text_.data(), text_.size()) == static_cast<ssize_t>(text_.size());
     const int error = errno;
-    if (close(descriptor) == 0 && whole) return true;
+    if (close(descriptor) == 0 && whole) return;
     errno = error;
     unlink(file.c_str());
     fail(wanted_);
   }
 
+  static constexpr int new_file = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+
   std::string mark_, text_;
   fs::path wanted_, own_;
+  std::optional<UnfinishedFile> unfinished_;
   std::time_t time_ = 0;
 };
 

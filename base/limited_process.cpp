@@ -54,10 +54,12 @@ rlim_t address_space_bytes() {
 }
 
 rlim_t space_limit = RLIM_INFINITY;  // of this child
+constexpr rlim_t larger_pieces = 4 << 20;
 
-// Whether it asked for more than it may have, or the machine had less.
+// Whether it asked for more than it may have, or the machine had less. Small pieces are taken from larger ones, so that
+// some space is left when there is none for the next.
 [[noreturn]] void end_without_memory(const char*, std::size_t bytes) {
-  _exit(address_space_bytes() + bytes > space_limit ? exit_out_of_memory : exit_nothing_left);
+  _exit(address_space_bytes() + bytes + larger_pieces > space_limit ? exit_out_of_memory : exit_nothing_left);
 }
 
 void restrict_self(const ProcessLimits& limits) {

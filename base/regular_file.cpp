@@ -18,18 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+[[noreturn]] void refuse_file(const fs::path& file, const std::string& reason) {
   throw InputError(fmt::format("{}: {}", file.string(), reason));
 }
 
 [[noreturn]] void refuse_for_error(const fs::path& file, const char* what) {
-  if (errno == ENOENT || errno == ENOTDIR) refuse(file, "no such file");
-  refuse(file, fmt::format("{}: {}", what, std::strerror(errno)));
+  if (errno == ENOENT || errno == ENOTDIR) refuse_file(file, "no such file");
+  refuse_file(file, fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
 void check(const fs::path& file, const struct stat& status) {
-  if (S_ISDIR(status.st_mode)) refuse(file, "this is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) refuse(file, "this is not a regular file");
+  if (S_ISDIR(status.st_mode)) refuse_file(file, "this is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) refuse_file(file, "this is not a regular file");
 }
 
 class OpenFile {
@@ -82,7 +82,7 @@ std::string read_regular_file(const fs::path& file, std::uintmax_t max_bytes, st
   // A file that grows meanwhile is caught too.
   std::string bytes = open.size() > max_bytes ? "" : open.read_from(0, max_bytes);
   if (open.size() > max_bytes || bytes.size() > max_bytes)
-    refuse(file, fmt::format("larger than {} KiB{}", max_bytes / 1024, hint_when_larger));
+    refuse_file(file, fmt::format("larger than {} KiB{}", max_bytes / 1024, hint_when_larger));
   return bytes;
 }
 

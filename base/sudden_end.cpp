@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -51,13 +53,44 @@ void begin_opening() {
   }
 }
 
-// Not for ever: a signal may have come while this very thread was opening a file.
+// Not for ever: memory may have run out in the thread that is opening a file.
 void end_openings() {
   tidying = true;
   for (int moments = 0; openings > 0 && moments < 100; ++moments) wait_a_moment();
 }
 
 bool fits(const std::filesystem::path& file) { return file.native().size() < PATH_MAX; }
+
+// What `work` says of the marked file, open; false where something else stands there.
+template <class Work>
+bool with_marked_file(const Work& work) noexcept {
+  if (!standing.stands || standing.owner != getpid()) return false;
+  const int file = open(standing.path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return false;
+  const std::size_t size = std::strlen(standing.present);
+  char found[most_words] = {};
+  const bool stands = pread(file, found, size, standing.offset) == static_cast<ssize_t>(size) &&
+                      std::memcmp(found, standing.present, size) == 0;
+  const bool done = stands && work(file);
+  return close(file) == 0 && done;
+}
+
+// Keeps signals that tidy up away from this thread while a file is open and has no slot yet.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t those;
+    sigemptyset(&those);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&those, signal);
+    pthread_sigmask(SIG_BLOCK, &those, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 int take_slot(const std::filesystem::path& file) {
   if (!fits(file)) return -1;
@@ -74,11 +107,15 @@ int take_slot(const std::filesystem::path& file) {
 }  // namespace
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& file, int flags, unsigned mode) {
-  begin_opening();
-  descriptor_ = open(file.c_str(), flags, mode);
-  const int error = errno;
-  if (descriptor_ >= 0) slot_ = take_slot(file);
-  --openings;
+  int error = 0;
+  {
+    const SignalsWait wait;
+    begin_opening();
+    descriptor_ = open(file.c_str(), flags, mode);
+    error = errno;
+    if (descriptor_ >= 0) slot_ = take_slot(file);
+    --openings;
+  }
   errno = error;
 }
 
@@ -112,16 +149,14 @@ StandingMark::StandingMark(const std::filesystem::path& file, off_t offset, cons
 StandingMark::~StandingMark() { standing.stands = false; }
 
 bool mark(SuddenEnd why) noexcept {
-  if (!standing.stands || standing.owner != getpid()) return false;
-  const int descriptor = open(standing.path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return false;
-  const std::size_t size = std::strlen(standing.present);
-  char found[most_words] = {};
-  const bool stands = pread(descriptor, found, size, standing.offset) == static_cast<ssize_t>(size) &&
-                      std::memcmp(found, standing.present, size) == 0;
   const char* words = why == SuddenEnd::failure ? standing.failed : standing.interrupted;
-  const bool written = stands && pwrite(descriptor, words, size, standing.offset) == static_cast<ssize_t>(size);
-  return close(descriptor) == 0 && written;
+  const std::size_t size = std::strlen(words);
+  return with_marked_file(
+      [&](int file) { return pwrite(file, words, size, standing.offset) == static_cast<ssize_t>(size); });
+}
+
+bool mark_stands() noexcept {
+  return with_marked_file([](int) { return true; });
 }
 
 void tidy_up(SuddenEnd why) noexcept {

@@ -51,7 +51,11 @@ enum class SuddenEnd { failure, interruption };
 /// in a forked child, whose parent's they are.
 void tidy_up(SuddenEnd why) noexcept;
 
-/// Writes the mark's words alone; false where there is none or they cannot be written.
+/// Writes the mark's words alone; false where there is none, where the file has something else there, or where they
+/// cannot be written.
 bool mark(SuddenEnd why) noexcept;
+
+/// Whether there is a mark and its file still has there what it had at first.
+bool mark_stands() noexcept;
 
 }  // namespace billow

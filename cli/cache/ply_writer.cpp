@@ -9,7 +9,7 @@
 namespace billow::cli {
 namespace {
 
-constexpr ByteOrder order = ByteOrder::little;
+constexpr ByteOrder ply_order = ByteOrder::little;
 
 class PlyWriter : public CacheWriter {
  public:
@@ -18,16 +18,16 @@ class PlyWriter : public CacheWriter {
     for (const sim::Face& face : mesh.layout.face) {
       const int corners = sim::corner_count(face);
       faces_.push_back(static_cast<char>(corners));
-      for (int c = 0; c < corners; ++c) put<order>(faces_, std::int32_t{face[c]});
+      for (int c = 0; c < corners; ++c) put<ply_order>(faces_, std::int32_t{face[c]});
     }
   }
 
   void add(const CacheFrame& frame) override {
     std::string bytes = head(frame);
     for (Eigen::Index v = 0; v < frame.position.rows(); ++v) {
-      put_rows<order>(bytes, frame.position.row(v));
-      put_rows<order>(bytes, frame.velocity.row(v));
-      if (uv_) put_rows<order>(bytes, uv_->row(v));
+      put_rows<ply_order>(bytes, frame.position.row(v));
+      put_rows<ply_order>(bytes, frame.velocity.row(v));
+      if (uv_) put_rows<ply_order>(bytes, uv_->row(v));
     }
     write_file_atomically(folder_ / frame_file(mesh_, frame.number, "ply"), bytes + faces_);
     if (first_frame_ == 0) first_frame_ = frame.number;

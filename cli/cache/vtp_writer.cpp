@@ -10,7 +10,7 @@
 namespace billow::cli {
 namespace {
 
-constexpr ByteOrder order = ByteOrder::little;
+constexpr ByteOrder vtp_order = ByteOrder::little;
 
 /// The arrays of one file: their elements in the XML, their bytes behind it.
 class Arrays {
@@ -21,8 +21,8 @@ class Arrays {
     const std::string element = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
         name, rows.cols(), bytes_.size());
-    put<order>(bytes_, static_cast<std::uint64_t>(rows.size()) * sizeof(typename Rows::Scalar));
-    put_rows<order>(bytes_, rows);
+    put<vtp_order>(bytes_, static_cast<std::uint64_t>(rows.size()) * sizeof(typename Rows::Scalar));
+    put_rows<vtp_order>(bytes_, rows);
     return element;
   }
   const std::string& bytes() const { return bytes_; }

@@ -52,8 +52,10 @@ render::MetricLimit parse_metric(const std::string& text) {
     double limit = 0.0;
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(std::min(text.data() + equals + 1, end), end, limit);
-    if (error == std::errc() && rest == end && limit >= 0.0) return {metric, limit};
-    throw CLI::ValidationError("--metric", fmt::format("'{}' has no limit like {}=0.1", text, name));
+    const double most = render::largest(metric);
+    if (error == std::errc() && rest == end && limit >= 0.0 && limit <= most) return {metric, limit};
+    throw CLI::ValidationError("--metric",
+                               fmt::format("'{}' has no limit from 0 to {:g}, like {}=0.1", text, most, name));
   }
   throw CLI::ValidationError("--metric", fmt::format("there is no metric '{}'{}", name,
                                                      suggestion(name, all_words<render::Metric>(), "metrics are")));
@@ -244,16 +246,14 @@ void add_compare(CLI::App& app, Request& r) {
   c.add_flag("--ignore-alpha", r.compare.tolerance.what.ignore_alpha, "Compare colours only");
   c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")->type_name("DIR");
   c.add_option("--junit", r.compare.junit, "Write the pairs as test cases of JUnit's XML")->type_name("FILE");
-  CLI::Option* accept =
-      c.add_option("--accept", r.compare.accept_only,
-                   "Copy what differs or is new from B to A: all, or these names (not where CI is set)")
-          ->type_name("[NAME ...]")
-          ->expected(0, CLI::detail::expected_max_vector_size);
+  c.add_flag("--accept", r.compare.accept, "Copy from B to A what differs or is new (not where CI is set)");
+  c.add_option("--accept-only", r.compare.accept_only, "Copy this image alone (repeatable)")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->excludes("--accept");
   c.add_flag("--json", r.compare.json, "Print JSON");
-  c.final_callback([&r, accept] {
+  c.final_callback([&r] {
     set_tolerance(r);
-    r.compare.accept = accept->count() > 0;
-    std::erase(r.compare.accept_only, "");  // which stands for no name
     r.command = [&r] { return compare_command(r.compare); };
   });
 }

@@ -50,7 +50,7 @@ struct CompareOptions {
   std::filesystem::path junit;       // JUnit's XML; empty: none written
   ImageTolerance tolerance;
   bool accept = false;                   // copy from B to A what differs or is new
-  std::vector<std::string> accept_only;  // of these names; empty: all
+  std::vector<std::string> accept_only;  // or of that these alone
   bool json = false;
 };
 int compare_command(const CompareOptions& options);

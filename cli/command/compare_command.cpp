@@ -45,8 +45,9 @@ Json as_json(const ComparedPair& pair) {
 
 void print_row(const ComparedPair& pair) {
   const std::string reason = pair.reason.empty() ? "" : fmt::format(" (by its own tolerance: {})", pair.reason);
+  const std::string same = pair.why.find(", to ") == std::string::npos ? "same" : "same: " + pair.why;
   const std::string verdict =
-      (pair.verdict == Verdict::same ? "same" : fmt::format("{}: {}", name_of(pair.verdict), pair.why)) + reason;
+      (pair.verdict == Verdict::same ? same : fmt::format("{}: {}", name_of(pair.verdict), pair.why)) + reason;
   if (!pair.comparison) {
     print_line("{:<32} {:<66}{}", pair.name, "", verdict);
     return;
@@ -57,34 +58,41 @@ void print_row(const ComparedPair& pair) {
 }
 
 void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
+  const bool flip = std::any_of(pairs.begin(), pairs.end(),
+                                [](const ComparedPair& pair) { return pair.comparison && pair.comparison->flip; });
   print_line("{:<32} {:>4} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}", "image", "max", "mean", "rmse", "psnr dB", "ssim",
-             fmt::format("over {}/255", options.tolerance.what.threshold), options.tolerance.what.flip ? "flip" : "");
+             fmt::format("over {}/255", options.tolerance.what.threshold), flip ? "flip" : "");
   for (const ComparedPair& pair : pairs) print_row(pair);
   if (pairs.size() == 1) return;
   const auto same = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.verdict == Verdict::same; });
   print_line("{} of {} the same", same, pairs.size());
 }
 
+void print_as_json(const std::vector<ComparedPair>& pairs, const std::vector<std::string>& accepted, bool all_same) {
+  Json json = {{"same", all_same}, {"accepted", accepted}, {"images", Json::array()}};
+  for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
+  print_json(json_text(json, 2));
+}
+
 }  // namespace
 
+// What was found is printed and written before anything is accepted: it is what somebody looks at.
 int compare_command(const CompareOptions& options) {
   std::vector<ComparedPair> pairs = compared_images(options);
-  std::vector<std::string> accepted;
-  if (options.accept) accepted = accept(pairs, options);
   const auto all = [&](Verdict verdict) {
     return std::all_of(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
   };
+  if (!options.json) print_table(pairs, options);
   if (!options.junit.empty()) write_junit(options.junit, pairs, options);
   if (!options.report.empty()) write_compare_report(options.report, pairs, options);
-  if (options.json) {
-    Json json = {{"same", all(Verdict::same)}, {"accepted", accepted}, {"images", Json::array()}};
-    for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
-    print_json(json_text(json, 2));
-  } else {
-    print_table(pairs, options);
+  std::vector<std::string> accepted;
+  if (options.accept || !options.accept_only.empty()) accepted = accept(pairs, options);
+  if (options.json)
+    print_as_json(pairs, accepted, all(Verdict::same));
+  else
     for (const std::string& name : accepted) print_line("accepted {}", name);
-  }
-  if (all(Verdict::unreadable)) throw InputError("no pair of images could be read");
+  if (all(Verdict::unreadable))
+    throw InputError(pairs.size() == 1 ? pairs.front().why : "no pair of images could be read");
   return all(Verdict::same) ? exit_done : exit_images_differ;
 }
 

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "base/xml.h"
 #include "cli/cache/base64.h"
 #include "cli/page/page_file.h"
@@ -31,6 +30,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_pictures = 40;  // that a page holds
+constexpr std::string_view mark_of_page = "<section class=\"comparison\"";
 
 // What needs a look first comes first.
 bool needs_a_look_before(const ComparedPair& a, const ComparedPair& b) {
@@ -46,13 +46,14 @@ bool needs_a_look_before(const ComparedPair& a, const ComparedPair& b) {
 
 std::string data_uri(std::string_view png) { return "data:image/png;base64," + base64(png); }
 
-// A file as it is; nothing where there is none.
+// A file as it is; nothing where there is none, or where it is too large for a page that can be sent.
 Json file_uri(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return {};
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
-  return stream ? Json(data_uri(bytes)) : Json();
+  constexpr std::uintmax_t most = 32 << 20;  // [byte]
+  try {
+    return data_uri(read_regular_file(file, most));
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 // ꟻLIP's errors as colours; their mean is the pair's where nobody has asked for it before.
@@ -75,7 +76,8 @@ Json flip_uri(ComparedPair& pair) {
   }
   flip.finish();
   const double pixels = double(map.width) * map.height;
-  if (pair.comparison->pixels == static_cast<std::int64_t>(pixels)) pair.comparison->flip = sum / pixels;  // no mask
+  if (!pair.comparison->flip && pair.comparison->pixels == static_cast<std::int64_t>(pixels))
+    pair.comparison->flip = sum / pixels;  // no mask
   return data_uri(render::encode_png(map));
 }
 
@@ -122,6 +124,14 @@ std::string summary(const std::vector<ComparedPair>& pairs) {
   return text;
 }
 
+// Only a page of this kind.
+void check_replaceable(const fs::path& page) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(page, error)) && read_regular_file(page).find(mark_of_page) == std::string::npos)
+    throw OutputError(
+        fmt::format("{} is there and no page of a comparison; choose another folder with --report", page.string()));
+}
+
 }  // namespace
 
 void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pairs, const CompareOptions& options) {
@@ -141,6 +151,7 @@ void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pair
                                                 {"rows", rows},
                                                 {"pictures", json_for_script(json)}});
   make_folder(folder);
+  check_replaceable(folder / "index.html");
   write_file_atomically(folder / "index.html", html_page(title, body, {"compare.js"}));
 }
 

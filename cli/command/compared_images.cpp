@@ -2,17 +2,18 @@
 #include "cli/command/compared_images.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <set>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "base/suggest.h"
 #include "cli/run/output_folder.h"
 #include "render/image/png.h"
@@ -103,14 +104,37 @@ bool is_png(const fs::path& file) {
   return extension == ".png";
 }
 
-// Paths of all PNG files below `folder`, relative to it.
-std::set<std::string> images_below(const fs::path& folder) {
-  std::set<std::string> names;
+/// What a folder has.
+struct FolderNames {
+  std::set<std::string> images, tolerances;  // relative to it
+  std::map<std::string, std::string> fault;  // of what cannot be looked into, by name
+};
+
+// Adds what is in `folder`/`inner` and below.
+void look_into(const fs::path& folder, const fs::path& inner, FolderNames& names) {
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_regular_file(error) && is_png(entry->path()))
-      names.insert(entry->path().lexically_relative(folder).generic_string());
-  if (error) throw InputError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  fs::directory_iterator entry(folder / inner, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    const fs::path relative = inner / entry->path().filename();
+    const std::string name = relative.generic_string();
+    std::error_code ignored;
+    if (entry->is_directory(ignored) && entry->is_symlink(ignored))
+      names.fault[name] = (folder / relative).string() + ": is a link to a folder, which is not followed";
+    else if (entry->is_directory(ignored))
+      look_into(folder, relative, names);
+    else if (is_png(relative))
+      names.images.insert(name);
+    else if (name.ends_with(tolerance_ending))
+      names.tolerances.insert(name);
+  }
+  if (error && inner.empty()) throw InputError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) names.fault[inner.generic_string()] = (folder / inner).string() + ": cannot be read: " + error.message();
+}
+
+FolderNames names_below(const fs::path& folder) {
+  FolderNames names;
+  std::error_code error;
+  if (fs::exists(folder, error)) look_into(folder, "", names);
   return names;
 }
 
@@ -127,17 +151,41 @@ std::string original_of(const std::string& name) {
 }
 
 /// The names in two folders.
-struct Names {
-  std::set<std::string> a, b;
+class Names {
+ public:
+  explicit Names(const CompareOptions& options) : a(names_below(options.a)), b(names_below(options.b)) {
+    for (const std::string& name : b.images) numbered_in_b_.insert(original_of(name));
+    for (const std::string& name : a.images) leave_out_mask_of(name, options);
+    for (const std::string& mask : masks_) a.images.erase(mask);
+  }
 
-  bool is_version(const std::string& name) const { return !b.contains(name) && a.contains(original_of(name)); }
+  // Where the second folder has numbers of that name too, they are pictures of their own.
+  bool is_version(const std::string& name) const {
+    const std::string original = original_of(name);
+    return a.images.contains(original) && !b.images.contains(name) && !numbered_in_b_.contains(original);
+  }
 
   std::vector<std::string> versions_of(const std::string& original) const {
     std::vector<std::string> versions;
-    for (const std::string& name : a)
-      if (is_version(name) && original_of(name) == original) versions.push_back(name);
+    for (const std::string& name : a.images)
+      if (original_of(name) == original && is_version(name)) versions.push_back(name);
     return versions;
   }
+
+  FolderNames a, b;
+
+ private:
+  void leave_out_mask_of(const std::string& name, const CompareOptions& options) {
+    try {
+      const ImageTolerance tolerance = tolerance_of(options.a / name, {});
+      if (!tolerance.mask.empty())
+        masks_.insert(
+            tolerance.mask.lexically_normal().lexically_relative(options.a.lexically_normal()).generic_string());
+    } catch (const InputError&) {  // is told in the picture's own row
+    }
+  }
+
+  std::set<std::string> masks_, numbered_in_b_;
 };
 
 // Against the baseline or, where that differs, the first other version that will do.
@@ -149,37 +197,84 @@ ComparedPair judged(const std::string& name, const Names& names, const CompareOp
     ComparedPair other = pair;
     other.a = options.a / version;
     judge(other, pair.a, options);
-    if (other.verdict == Verdict::same) return other;
+    if (other.verdict != Verdict::same) continue;
+    other.why += ", to " + version;
+    return other;
   }
   return pair;
 }
 
+// Whether it can be read to its end; why not, if not.
+std::optional<std::string> fault_of(const fs::path& file) {
+  try {
+    Rows rows(file);
+    for (int y = 0; y < rows.png.height(); ++y) rows.next();
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 ComparedPair row_of(const std::string& name, const Names& names, const CompareOptions& options) {
-  if (names.a.contains(name) && names.b.contains(name)) return judged(name, names, options);
+  const bool in_a = names.a.images.contains(name), in_b = names.b.images.contains(name);
+  if (in_a && in_b) return judged(name, names, options);
   ComparedPair pair = pair_named(name, options);
-  pair.why = "missing in " + (names.a.contains(name) ? options.b : options.a).string();
+  pair.why = "missing in " + (in_a ? options.b : options.a).string();
+  if (const auto fault = fault_of(in_a ? pair.a : pair.b)) pair.verdict = Verdict::unreadable, pair.why = *fault;
   return pair;
+}
+
+ComparedPair unreadable(const std::string& name, const std::string& why, const CompareOptions& options) {
+  ComparedPair pair = pair_named(name, options);
+  pair.verdict = Verdict::unreadable;
+  pair.why = why;
+  return pair;
+}
+
+// Tolerances of pictures that are not there: a slip in a name, most often.
+void add_idle_tolerances(const Names& names, const CompareOptions& options, std::vector<ComparedPair>& pairs) {
+  for (const std::string& name : names.a.tolerances) {
+    const std::string stem = name.substr(0, name.size() - tolerance_ending.size());
+    const auto is_its_picture = [&](const std::string& image) { return image.substr(0, image.rfind('.')) == stem; };
+    if (std::none_of(names.a.images.begin(), names.a.images.end(), is_its_picture) &&
+        std::none_of(names.b.images.begin(), names.b.images.end(), is_its_picture))
+      pairs.push_back(unreadable(name, fmt::format("there is no picture {}.png that it is for", stem), options));
+  }
 }
 
 std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   if (!options.difference.empty())
     throw InputError("--diff takes two images, not two folders; compare the pair that differs");
-  const Names names{images_below(options.a), images_below(options.b)};
-  if (names.a.empty() && names.b.empty()) throw InputError("neither folder holds a PNG image");
-  std::set<std::string> all = names.a;
-  all.insert(names.b.begin(), names.b.end());
+  const Names names(options);
+  std::set<std::string> all = names.a.images;
+  all.insert(names.b.images.begin(), names.b.images.end());
   std::vector<ComparedPair> pairs;
   for (const std::string& name : all)
     if (!names.is_version(name)) pairs.push_back(row_of(name, names, options));
+  std::map<std::string, std::string> faults = names.a.fault;
+  faults.insert(names.b.fault.begin(), names.b.fault.end());
+  for (const auto& [name, why] : faults) pairs.push_back(unreadable(name, why, options));
+  add_idle_tolerances(names, options, pairs);
+  if (pairs.empty()) throw InputError("neither folder holds a PNG image");
   return pairs;
+}
+
+bool is_same_file(const fs::path& one, const fs::path& other) {
+  std::error_code error;
+  return fs::equivalent(one, other, error);
 }
 
 ComparedPair compared_files(const CompareOptions& options) {
   const std::string a = options.a.filename().string(), b = options.b.filename().string();
   ComparedPair pair{a == b ? a : a + ", " + b, options.a, options.b, {}, {}, {}, {}};
+  if (is_same_file(options.difference, options.a) || is_same_file(options.difference, options.b))
+    throw InputError("--diff would replace one of the images; name another file");
   judge(pair, options.a, options);
-  if (pair.verdict == Verdict::unreadable) throw InputError(pair.why);
-  if (!options.difference.empty() && pair.comparison) write_difference(options.difference, pair);
+  if (options.difference.empty()) return pair;
+  if (pair.comparison)
+    write_difference(options.difference, pair);
+  else
+    pair.why += "; no difference image is written";
   return pair;
 }
 
@@ -195,8 +290,10 @@ const char* name_of(Verdict verdict) {
 }
 
 std::vector<ComparedPair> compared_images(const CompareOptions& options) {
-  check_exists(options.a);
   check_exists(options.b);
+  const bool accepts = options.accept || !options.accept_only.empty();
+  if (accepts && !fs::exists(options.a) && fs::is_directory(options.b)) return compared_folders(options);
+  check_exists(options.a);
   const bool a_is_folder = fs::is_directory(options.a), b_is_folder = fs::is_directory(options.b);
   if (a_is_folder != b_is_folder) throw InputError("compare two images or two folders, not one of each");
   if (a_is_folder) return compared_folders(options);
@@ -205,27 +302,32 @@ std::vector<ComparedPair> compared_images(const CompareOptions& options) {
 
 namespace {
 
+bool is_asked_for(const ComparedPair& pair, const CompareOptions& options) {
+  const auto& names = options.accept_only;
+  return options.accept || std::find(names.begin(), names.end(), pair.name) != names.end();
+}
+
+// Names that are none of the pairs', or whose picture in B is not to be had.
 void check_accepted_names(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
   std::vector<std::string_view> known;
   for (const ComparedPair& pair : pairs) known.push_back(pair.name);
-  for (const std::string& name : options.accept_only)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--accept: there is no image '{}'{}", name, suggestion(name, known, "images are")));
+  for (const std::string& name : options.accept_only) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw InputError(
+          fmt::format("--accept-only: there is no image '{}'{}", name, suggestion(name, known, "images are")));
+    const ComparedPair& pair = pairs[static_cast<std::size_t>(found - known.begin())];
+    if (const auto fault = fault_of(pair.b)) throw InputError(fmt::format("--accept-only: {}", *fault));
+  }
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(stream)), {});
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  return bytes;
-}
-
-// Whether there is something in B to copy that is not in A, or not like it.
-bool is_to_be_accepted(const ComparedPair& pair, const CompareOptions& options) {
-  std::error_code error;
-  const auto& names = options.accept_only;
-  return pair.verdict == Verdict::different && fs::is_regular_file(pair.b, error) &&
-         (names.empty() || std::find(names.begin(), names.end(), pair.name) != names.end());
+void copy(const ComparedPair& pair, const CompareOptions& options) {
+  if (fs::is_directory(options.b)) {
+    make_folder(options.a);
+    make_folder_within(options.a, fs::path(pair.name).parent_path());
+  }
+  if (fs::is_symlink(pair.a)) throw OutputError(fmt::format("{} is a link, which is not replaced", pair.a.string()));
+  write_file_atomically(pair.a, read_regular_file(pair.b));
 }
 
 }  // namespace
@@ -237,9 +339,13 @@ std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareO
   check_accepted_names(pairs, options);
   std::vector<std::string> accepted;
   for (ComparedPair& pair : pairs) {
-    if (!is_to_be_accepted(pair, options)) continue;
-    make_folder(pair.a.has_parent_path() ? pair.a.parent_path() : ".");
-    write_file_atomically(pair.a, bytes_of(pair.b));
+    if (pair.verdict == Verdict::same || !is_asked_for(pair, options) || fault_of(pair.b)) continue;
+    try {
+      copy(pair, options);
+    } catch (const OutputError& error) {
+      throw OutputError(fmt::format("{}; accepted until then: {}", error.what(),
+                                    accepted.empty() ? "nothing" : fmt::format("{}", fmt::join(accepted, ", "))));
+    }
     pair.verdict = Verdict::same;
     pair.why = "accepted";
     accepted.push_back(pair.name);

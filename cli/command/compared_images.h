@@ -27,15 +27,17 @@ struct ComparedPair {
 };
 
 /// Every pair of images of two files or of two folders (below them, *.png in any case), by name. What befalls a pair is
-/// in its row and stops no other; a file that is in one folder only is a difference. In the first folder NAME.1.png and
-/// so on are other pictures that will do for NAME.png, where the second has no such files, and NAME.tolerance.yaml is
-/// the tolerance of NAME.png. Throws InputError where there is nothing to compare at all.
+/// in its row and stops no other; a file that is in one folder only is a difference; links to folders are not followed,
+/// which is said in a row. In the first folder NAME.1.png and so on are other pictures that will do for NAME.png, where
+/// the second has no such names, NAME.tolerance.yaml is the tolerance of NAME.png, and masks that these name are no
+/// pictures. Throws InputError where there is nothing to compare at all.
 std::vector<ComparedPair> compared_images(const CompareOptions& options);
 
-/// Copies from the second folder, or file, to the first those of `pairs` that differ or are new there, of
-/// options.accept_only if that names any, each whole or not at all, and nothing else. Their verdict becomes `same`. The
-/// names of what was copied. Throws InputError for a name that is none of theirs, OutputError, and InputError too where
-/// the environment variable CI is set: a machine must not accept.
+/// Copies from the second folder, or file, to the first those of `pairs` that differ, are new there or damaged there,
+/// and are whole images in the second; all, or those of options.accept_only; each whole or not at all, none through a
+/// link. Their verdict becomes `same`. The names of what was copied. Throws InputError where options.accept_only names
+/// what is not to be had, or the environment variable CI is set: a machine must not accept; OutputError, which says
+/// what was copied before.
 std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareOptions& options);
 
 }  // namespace billow::cli

@@ -33,7 +33,8 @@ const Section& section() {
 const Section& metric_section() {
   static const Section keys = [] {
     Section all{"metrics", {}};
-    for (const std::string_view name : all_words<render::Metric>()) all.keys.push_back({name, {0.0, 1e6}});
+    for (const auto& [name, metric] : render::words(render::Metric()))
+      all.keys.push_back({name, {0.0, render::largest(metric)}});
     return all;
   }();
   return keys;
@@ -84,9 +85,9 @@ bool read_pixels(const std::string& text, render::Tolerance& tolerance) {
 
 ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usual) {
   fs::path file = baseline;
-  file.replace_extension(".tolerance.yaml");
+  file.replace_extension(tolerance_ending);
   std::error_code error;
-  if (!fs::exists(file, error)) return usual;
+  if (!fs::exists(fs::symlink_status(file, error))) return usual;  // a link to nothing is a fault
   ImageTolerance tolerance = usual;
   const NodePtr root = read_yaml_file(file);
   MapReader map(*root, section(), make_map());

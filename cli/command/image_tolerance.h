@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "render/image/compare.h"
 
 namespace billow::cli {
+
+/// In the place of a baseline's extension: the file with its tolerance.
+inline constexpr std::string_view tolerance_ending = ".tolerance.yaml";
 
 struct ImageTolerance {
   render::ComparisonOptions what;

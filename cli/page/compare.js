@@ -156,9 +156,11 @@
     draw();
   }, period);
 
-  buttons.forEach((button) => button.addEventListener("click", () => set_mode(button.dataset.mode)));
+  // A button that was clicked gives the keyboard back: Space is the picture's.
+  buttons.forEach((button) => button.addEventListener("click", () => (button.blur(), set_mode(button.dataset.mode))));
   for (const row of rows)
-    row.querySelector("button")?.addEventListener("click", () => {
+    row.querySelector("button")?.addEventListener("click", (event) => {
+      event.currentTarget.blur();
       show(Number(row.dataset.picture));
       section.scrollIntoView({ block: "start" });
     });

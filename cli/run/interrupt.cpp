@@ -1,6 +1,8 @@
 // Remembering a signal, and what is done in no time.
 #include "cli/run/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <initializer_list>
 
@@ -19,7 +21,12 @@ extern "C" void on_signal(int signal) {
   }
   tidy_up(SuddenEnd::interruption);
   std::signal(signal, SIG_DFL);
-  raise(signal);  // when this handler returns
+  sigset_t only;
+  sigemptyset(&only);
+  sigaddset(&only, signal);
+  sigprocmask(SIG_UNBLOCK, &only, nullptr);
+  raise(signal);
+  _exit(128 + signal);  // the first process of a container is not ended by a signal
 }
 
 }  // namespace

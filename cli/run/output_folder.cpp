@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -66,14 +67,18 @@ std::vector<fs::path> folders_of_runs(const fs::path& folder) {
   return folders;
 }
 
-// Removes the files in `folder` that are ours, and the folder if nothing else is in it.
+// Removes the files in `folder` that are ours, and the folder if nothing else is in it. Throws OutputError for a file
+// that stays: it would be taken for one of the run that comes.
 void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
   if (is_link(folder)) return;
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.is_regular_file(error) && is_ours(entry.path())) files.push_back(entry.path());
-  for (const fs::path& file : files) fs::remove(file, error);
+  for (const fs::path& file : files) {
+    fs::remove(file, error);
+    if (error) throw OutputError(fmt::format("cannot remove {}: {}", file.string(), error.message()));
+  }
   if (fs::is_directory(folder, error)) fs::remove(folder, error);  // only if it is empty now
 }
 
@@ -107,9 +112,9 @@ void remove_earlier_run(const fs::path& folder) {
   remove_all_frames(folder);
   remove_caches(folder / caches_name);
   if (const fs::path states = folder / StateStore::folder_name; !is_link(states)) remove_states(states);
-  for (const std::string_view name : all_words<RunFile>())
+  for (const auto& [name, kind] : words(RunFile()))
     if (const fs::path file = folder / name;
-        fs::is_regular_file(file, error) && !is_link(folder / *fs::path(name).begin()))
+        kind != RunFile::record && fs::is_regular_file(file, error) && !is_link(folder / *fs::path(name).begin()))
       fs::remove(file, error);
   if (fs::is_directory(folder / caches_name, error))
     fs::remove(folder / caches_name, error);  // only if it is empty now
@@ -168,7 +173,10 @@ nlohmann::json earlier_record(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "run.json", error)) return {};
   std::ifstream file(folder / "run.json");
   nlohmann::json record = nlohmann::json::parse(file, nullptr, false);
-  return record.is_object() ? record : nlohmann::json();
+  const nlohmann::json::json_pointer whole("/scene/hash"), timeless("/scene/timeless_hash");
+  const bool is_record = record.is_object() && record.value(whole, nlohmann::json()).is_string() &&
+                         record.value(timeless, nlohmann::json()).is_string();
+  return is_record ? record : nlohmann::json();
 }
 
 void check_output_folder(const fs::path& folder, Existing existing, const Scene& scene) {
@@ -185,13 +193,16 @@ void check_output_folder(const fs::path& folder, Existing existing, const Scene&
 
 OutputFolder::OutputFolder(fs::path folder, Existing existing, const Scene& scene,
                            const std::vector<render::View>& views)
-    : folder_(std::move(folder)), views_(views), existing_(existing), keeps_(existing == Existing::resume) {
+    : folder_(std::move(folder)),
+      views_(views),
+      keeps_(existing == Existing::resume),
+      replaces_(existing == Existing::overwrite && fs::exists(folder_ / word_of(RunFile::record))) {
   check_output_folder(folder_, existing, scene);
   make_folder(folder_);
 }
 
 void OutputFolder::begin_run() {
-  if (existing_ == Existing::overwrite) remove_earlier_run(folder_);
+  if (std::exchange(replaces_, false)) remove_earlier_run(folder_);
   join_run();
 }
 

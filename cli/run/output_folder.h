@@ -59,8 +59,9 @@ class OutputFolder {
   OutputFolder(std::filesystem::path folder, Existing existing, const Scene& scene,
                const std::vector<render::View>& views);
 
-  /// Call it when the first frame is about to be drawn: `overwrite` now removes what an earlier run wrote there, and
-  /// nothing else but the temporary files of runs that were killed; nothing through a link.
+  /// Call it when the first frame is about to be drawn and the run's own record stands: `overwrite` now removes what
+  /// else an earlier run wrote there, and nothing else but the temporary files of runs that were killed; nothing
+  /// through a link, and nothing at all where there was no run. The second call does nothing.
   void begin_run();
   /// The same where other processes may be drawing other frames of the run: removes nothing else.
   void join_run();
@@ -84,8 +85,8 @@ class OutputFolder {
  private:
   std::filesystem::path folder_;
   std::vector<render::View> views_;
-  Existing existing_;
   bool keeps_;
+  bool replaces_;  // an earlier run, which begin_run() removes
 };
 
 }  // namespace billow::cli

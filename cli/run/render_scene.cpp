@@ -106,14 +106,16 @@ class SceneRun {
     const bool keeps = !draws_stored(options_) && keeps_states(options_, folder_);
     const nlohmann::json before = earlier_record(folder_.path());
     const nlohmann::json bounds_before = before.is_null() ? nlohmann::json() : before.value("bounds", nlohmann::json());
-    if (keeps) begin(), write_begun_record(bounds_before);
+    if (keeps) write_begun_record(bounds_before), begin();
     look_ahead();
     if (interrupted_by() != 0) return 128 + interrupted_by();
     progress_.phase(options_.simulate_only ? "simulate" : "render");
     const bool alike = was_drawn_alike(bounds_before, survey_.bounds);
-    if (!alike) folder_.remove_frames();
-    if (!keeps) begin();
+    // The record comes first: whatever ends the process now, it does not say of frames that are gone that they are
+    // done.
     if (!draws_stored(options_) || before.is_null() || !alike) write_begun_record(bounds_record(survey_.bounds));
+    if (!alike) folder_.remove_frames();
+    begin();
     const FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
     finish(report);
     if (report.interrupted_by) return 128 + report.interrupted_by;
@@ -184,7 +186,7 @@ class SceneRun {
       page.listed = folder_.frames_drawn(frame_count(run_.scene));
       inherited = made_elsewhere(earlier_record(folder_.path()));
       inherited["drawn"] = page.listed;
-      page.strip_columns = inherited.value("strip_columns", 0);
+      if (const auto& columns = inherited["strip_columns"]; columns.is_number_integer()) page.strip_columns = columns;
       if (std::error_code error; std::filesystem::is_regular_file(folder_.file(RunFile::glb), error)) show_model(page);
     } else {
       if (options_.simulate_only) inherited["views"] = nlohmann::ordered_json::array(), page.views.clear();

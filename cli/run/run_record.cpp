@@ -175,6 +175,7 @@ RunningRecord::RunningRecord(std::filesystem::path file, Json begun)
 }
 
 void RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
+  if (!mark_stands()) return;
   try {
     begun_["status"] = how == SuddenEnd::failure ? failed : interrupted;
     if (!reason.empty()) begun_["error"] = reason;

@@ -282,6 +282,20 @@ Words<Metric> words(Metric) {
   return list;
 }
 
+double largest(Metric metric) {
+  switch (metric) {
+    case Metric::max:
+    case Metric::rmse:
+      return 255.0;
+    case Metric::psnr:
+      return 1000.0;
+    case Metric::ssim:
+    case Metric::flip:
+      return 1.0;
+  }
+  throw std::logic_error("a metric has no largest value");
+}
+
 namespace {
 
 bool holds(const Comparison& c, const MetricLimit& m) {

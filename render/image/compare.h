@@ -71,6 +71,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
 /// Numbers that images can be judged by.
 enum class Metric { max, rmse, psnr, ssim, flip };
 Words<Metric> words(Metric);
+/// The largest value that makes a limit of a metric.
+double largest(Metric metric);
 
 /// A metric and what it may be at most, or at least for those that are high for images that are alike (psnr, ssim).
 struct MetricLimit {

@@ -39,28 +39,28 @@ bool succeeds(png_structp png, const Calls& calls) {
   return true;
 }
 
-struct Reader {
-  Reader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning)) {
+struct PngReader {
+  PngReader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning)) {
     if (!png) throw std::bad_alloc();
     info = png_create_info_struct(png);
     if (!info) throw std::bad_alloc();
   }
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-  Reader(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
 
   std::string message;
   png_structp png;
   png_infop info = nullptr;
 };
 
-struct Writer {
-  Writer() : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning)) {
+struct PngWriter {
+  PngWriter() : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning)) {
     if (!png) throw std::bad_alloc();
     info = png_create_info_struct(png);
     if (!info) throw std::bad_alloc();
   }
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-  Writer(const Writer&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
+  PngWriter(const PngWriter&) = delete;
 
   std::string message;
   png_structp png;
@@ -120,7 +120,7 @@ void check_header(const std::filesystem::path& file, std::FILE* stream) {
 }
 
 // Everything becomes 8-bit RGB, or RGBA where the file has transparency.
-void read_header(Reader& reader, std::FILE* stream) {
+void read_header(PngReader& reader, std::FILE* stream) {
   png_structp png = reader.png;
   png_init_io(png, stream);
   png_set_user_limits(png, max_read_size, max_read_size);
@@ -153,7 +153,7 @@ struct PixelFormat {
 
 // Measured on frames: level 2 with UP or SUB takes a third of the time of level 6 with all filters, for files hardly
 // larger. No time chunk, so that the same pixels give the same bytes.
-void write_header(Writer& writer, Sink& output, int width, int height, const PixelFormat& format) {
+void write_header(PngWriter& writer, Sink& output, int width, int height, const PixelFormat& format) {
   png_structp png = writer.png;
   png_set_write_fn(png, &output, write_chunk, [](png_structp) {});
   png_set_user_limits(png, max_write_size, max_write_size);
@@ -167,7 +167,8 @@ void write_header(Writer& writer, Sink& output, int width, int height, const Pix
 }
 
 // False when a call of libpng failed; writer.message then says why.
-bool encode(Writer& writer, Sink& output, int width, int height, const PixelFormat& format, const FillRow& fill_row) {
+bool encode(PngWriter& writer, Sink& output, int width, int height, const PixelFormat& format,
+            const FillRow& fill_row) {
   if (!succeeds(writer.png, [&] { write_header(writer, output, width, height, format); })) return false;
   std::vector<std::uint8_t> row(format.row_bytes);
   for (int y = 0; y < height; ++y) {
@@ -187,7 +188,7 @@ FillRow rows_of(const Image& image) {
 }
 
 // A failed write leaves its reason in errno; anything else is libpng's own complaint.
-[[noreturn]] void fail(const Writer& writer, const AtomicFile& output, const std::filesystem::path& file) {
+[[noreturn]] void fail(const PngWriter& writer, const AtomicFile& output, const std::filesystem::path& file) {
   if (writer.message == "write") output.fail();
   throw OutputError(fmt::format("cannot write {}: {}", file.string(), writer.message));
 }
@@ -196,7 +197,7 @@ void write_rows(const std::filesystem::path& file, int width, int height, const 
                 const FillRow& fill_row) {
   AtomicFile output(file);
   Sink sink = [&](const void* bytes, std::size_t size) { return output.write(bytes, size); };
-  Writer writer;
+  PngWriter writer;
   if (!encode(writer, sink, width, height, format, fill_row)) fail(writer, output, file);
   output.commit();
 }
@@ -236,7 +237,7 @@ class PngSource {
 
   std::filesystem::path file_;
   Stream stream_;
-  Reader reader_;
+  PngReader reader_;
   Image held_;  // of an interlaced file, whose rows come in seven parts
   int next_ = 0;
 };
@@ -284,7 +285,7 @@ std::string encode_png(const Image& image) {
     bytes.append(static_cast<const char*>(more), size);
     return true;
   };
-  Writer writer;
+  PngWriter writer;
   if (!encode(writer, sink, image.width, image.height, format_of(image.width, image.channels), rows_of(image)))
     throw OutputError("cannot encode a PNG image: " + writer.message);
   return bytes;

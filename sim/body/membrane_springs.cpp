@@ -19,10 +19,10 @@ namespace {
 
 // (1, cos 2a, sin 2a, cos 4a, sin 4a), each times the root of its weight in the product of two tensors n n n n:
 // cos^4 d = 3/8 + 1/2 cos 2d + 1/8 cos 4d.
-using Fit = MomentFit<5>;
-using Moments = Fit::Moments;
+using MembraneFit = MomentFit<5>;
+using MembraneMoments = MembraneFit::Moments;
 
-Moments moments(double angle) {
+MembraneMoments moments(double angle) {
   const double mean = std::sqrt(0.375), second = std::sqrt(0.5), fourth = std::sqrt(0.125);
   return {mean, second * std::cos(2 * angle), second * std::sin(2 * angle), fourth * std::cos(4 * angle),
           fourth * std::sin(4 * angle)};
@@ -32,7 +32,7 @@ Moments moments(double angle) {
 struct FlatFace {
   double area = 0.0;  // [m^2]
   Eigen::Vector3d first, second;
-  Moments wanted;  // [N m]
+  MembraneMoments wanted;  // [N m]
 
   double angle(const Eigen::Vector3d& way) const { return std::atan2(second.dot(way), first.dot(way)); }
 };
@@ -99,18 +99,18 @@ Eigen::Vector3d way(const Mesh& mesh, const SpringPair& spring) {
 }
 
 // Sets what springs would have where all of a face's had alike.
-void spread_evenly(Fit& fit) {
+void spread_evenly(MembraneFit& fit) {
   std::vector<double> lengths(fit.cells.size(), 0.0);  // of springs in a face, in lengths of their own
-  for (const Fit::Spring& s : fit.springs)
+  for (const MembraneFit::Spring& s : fit.springs)
     for (const auto& [face, given] : s.shares) lengths[face] += given(0);
-  for (Fit::Spring& s : fit.springs)
+  for (MembraneFit::Spring& s : fit.springs)
     for (const auto& [face, given] : s.shares) s.usual += given(0) * fit.cells[face].missing(0) / lengths[face];
-  for (Fit::Spring& s : fit.springs) s.usual /= moments(0.0)(0);
+  for (MembraneFit::Spring& s : fit.springs) s.usual /= moments(0.0)(0);
 }
 
 // Every face is a cell, and a spring with k L^2 = 1 gives it the moments of its direction times its share.
-Fit fit_of(const Mesh& mesh, const std::vector<SpringPair>& springs, const std::vector<FlatFace>& faces) {
-  Fit fit;
+MembraneFit fit_of(const Mesh& mesh, const std::vector<SpringPair>& springs, const std::vector<FlatFace>& faces) {
+  MembraneFit fit;
   for (const FlatFace& face : faces) fit.cells.push_back({face.wanted, face.area});
   fit.springs.resize(springs.size());
   const auto parts = parts_of_pairs(mesh, faces);
@@ -139,7 +139,7 @@ Eigen::VectorXd membrane_stiffness(const Mesh& mesh, const std::vector<SpringPai
     faces.push_back(flat_face(mesh, face, moduli));
     wanted += faces.back().wanted(0);
   }
-  Fit fit = fit_of(mesh, springs, faces);
+  MembraneFit fit = fit_of(mesh, springs, faces);
   fit.settle();
   Eigen::VectorXd stiffness(static_cast<Eigen::Index>(springs.size()));
   for (std::size_t s = 0; s < springs.size(); ++s) {

@@ -20,8 +20,6 @@ constexpr int sweeps[] = {5, 5, 20, 40};
 constexpr int last_attempt = 3;
 // Shares into which one step may fall before what is in the way counts as crushed.
 constexpr int most_shares = 200;
-// Of the thickness: no vertex comes nearer to a half-space.
-constexpr double least_share = 0.1;
 
 void gather(const Eigen::MatrixX3d& rows, Points& points) {
   for (Eigen::Index i = 0; i < rows.rows(); ++i) points[i] = rows.row(i);

@@ -6,6 +6,9 @@
 
 namespace billow::sim {
 
+/// Of the distance that surfaces keep: they never come nearer to each other than this share of it.
+constexpr double least_share = 0.1;
+
 /// A vertex and a triangle, or two edges. Side a is the vertex, or the first edge; the difference of the nearest points
 /// is sum_k weight[k] x[vertex[k]], the weights of side a summing to 1 and those of side b to -1.
 struct ContactPair {

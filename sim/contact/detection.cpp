@@ -11,8 +11,6 @@ namespace billow::sim {
 
 namespace {
 
-// Of what a pair is thick: what its sides never come nearer than.
-constexpr double least_share = 0.1;
 // Of its thickness: how far a vertex may stray from its way at least.
 constexpr double least_margin = 0.5;
 // Of an edge: where thickness is more, a surface's own neighbours are within it.

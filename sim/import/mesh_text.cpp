@@ -107,7 +107,7 @@ long long integer_in(std::string_view word) {
   return value;
 }
 
-void Words::skip(bool across_lines) {
+void TextWords::skip(bool across_lines) {
   for (; at_ < text_.size(); ++at_) {
     const char c = text_[at_];
     if (c == '\n') {
@@ -121,24 +121,24 @@ void Words::skip(bool across_lines) {
   }
 }
 
-std::string_view Words::next() {
+std::string_view TextWords::next() {
   skip(true);
   const std::size_t begin = at_;
   while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != comment_) ++at_;
   return text_.substr(begin, at_ - begin);
 }
 
-bool Words::more() {
+bool TextWords::more() {
   skip(true);
   return at_ < text_.size();
 }
 
-bool Words::more_on_line() {
+bool TextWords::more_on_line() {
   skip(false);
   return at_ < text_.size() && text_[at_] != '\n';
 }
 
-std::string_view Words::need(std::string_view what) {
+std::string_view TextWords::need(std::string_view what) {
   const int last_line = line_;
   const std::string_view word = next();
   if (word.empty())
@@ -147,7 +147,7 @@ std::string_view Words::need(std::string_view what) {
   return word;
 }
 
-double Words::number(std::string_view what) {
+double TextWords::number(std::string_view what) {
   const std::string_view word = need(what);
   try {
     return number_in(word);
@@ -156,7 +156,7 @@ double Words::number(std::string_view what) {
   }
 }
 
-long long Words::integer(std::string_view what) {
+long long TextWords::integer(std::string_view what) {
   const std::string_view word = need(what);
   try {
     return integer_in(word);

@@ -20,9 +20,9 @@ double number_in(std::string_view word);
 long long integer_in(std::string_view word);
 
 /// The words of a text, one after the other, across lines. A comment runs from `comment` to the end of its line.
-class Words {
+class TextWords {
  public:
-  explicit Words(std::string_view text, char comment = '#', int first_line = 1)
+  explicit TextWords(std::string_view text, char comment = '#', int first_line = 1)
       : text_(text), comment_(comment), line_(first_line) {}
 
   /// The next word; "" at the end.

@@ -96,7 +96,7 @@ class VertexPass {
     std::vector<std::string> files{names};
     if (folder_.ask(names) == MeshFolder::Answer::missing) {
       files.clear();
-      for (Words words(names, '\0'); words.more();) files.emplace_back(words.next());
+      for (TextWords words(names, '\0'); words.more();) files.emplace_back(words.next());
     }
     for (const std::string& file : files) {
       if (const MeshFolder::Answer answer = folder_.ask(file); answer != MeshFolder::Answer::allowed) {

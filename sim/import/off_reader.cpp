@@ -19,7 +19,7 @@ namespace billow::sim {
 namespace {
 
 // What the keyword says.
-struct Header {
+struct OffHeader {
   bool texture = false, colours = false, normals = false, homogeneous = false;
   int dimensions = 3;
   bool binary = false;
@@ -43,9 +43,9 @@ bool begins_number(std::string_view word) {
   return !word.empty() && (word[0] == '-' || word[0] == '+' || word[0] == '.' || (word[0] >= '0' && word[0] <= '9'));
 }
 
-Header read_header(const std::string& text) {
-  Header header;
-  Words words(text);
+OffHeader read_header(const std::string& text) {
+  OffHeader header;
+  TextWords words(text);
   std::string_view word = words.next();
   if (!word.ends_with("OFF") && begins_number(word)) return header;  // the keyword may be missing
   header.texture = takes(word, "ST");
@@ -59,7 +59,7 @@ Header read_header(const std::string& text) {
     header.binary = true;
     header.length = words.passed() + 1;
   } else if (any_dimension) {
-    words = Words(text);
+    words = TextWords(text);
     words.next();
     header.dimensions = static_cast<int>(std::clamp(words.integer("the number of dimensions"), 0ll, 1000ll));
     header.length = words.passed();
@@ -76,7 +76,7 @@ std::string layout_text(long long vertices, long long faces) {
 // One attempt to read the words after the keyword in one layout.
 class Attempt {
  public:
-  Attempt(std::string_view text, const Header& header, const Layout& layout, const ImportLimits& limits)
+  Attempt(std::string_view text, const OffHeader& header, const Layout& layout, const ImportLimits& limits)
       : words_(text), bytes_(text.size()), header_(header), layout_(layout), limits_(limits), builder_(limits) {}
 
   PolygonSoup soup() {
@@ -148,9 +148,9 @@ class Attempt {
       builder_.set_colour(v, Eigen::Vector3f(&colour_[3 * static_cast<std::size_t>(v)]) / unit);
   }
 
-  Words words_;
+  TextWords words_;
   std::size_t bytes_;
-  const Header& header_;
+  const OffHeader& header_;
   const Layout& layout_;
   const ImportLimits& limits_;
   SoupBuilder builder_;
@@ -161,14 +161,14 @@ class Attempt {
 
 // Whether the line of counts has two numbers only.
 bool lacks_edge_count(std::string_view text) {
-  Words words(text);
+  TextWords words(text);
   words.next();
   if (!words.more_on_line()) return false;
   words.next();
   return !words.more_on_line();
 }
 
-std::vector<Layout> layouts(std::string_view text, const Header& header) {
+std::vector<Layout> layouts(std::string_view text, const OffHeader& header) {
   const bool lacks = lacks_edge_count(text);
   const std::vector<int> colours = header.colours ? std::vector<int>{4, 3} : std::vector<int>{0, 4, 3};
   std::vector<Layout> all;
@@ -179,7 +179,7 @@ std::vector<Layout> layouts(std::string_view text, const Header& header) {
   return all;
 }
 
-PolygonSoup read_text(std::string_view text, const Header& header, const ImportLimits& limits) {
+PolygonSoup read_text(std::string_view text, const OffHeader& header, const ImportLimits& limits) {
   std::optional<InputError> first;
   for (const Layout& layout : layouts(text, header)) {
     try {
@@ -191,7 +191,7 @@ PolygonSoup read_text(std::string_view text, const Header& header, const ImportL
   throw *first;
 }
 
-PolygonSoup read_binary(std::string_view bytes, const Header& header, const ImportLimits& limits) {
+PolygonSoup read_binary(std::string_view bytes, const OffHeader& header, const ImportLimits& limits) {
   ByteReader reader(bytes, std::endian::big);
   SoupBuilder builder(limits);
   const auto vertices = reader.take<std::int32_t>(), faces = reader.take<std::int32_t>();
@@ -227,7 +227,7 @@ PolygonSoup read_binary(std::string_view bytes, const Header& header, const Impo
 
 PolygonSoup read_off(const std::filesystem::path& file, const ImportLimits& limits) {
   const std::string bytes = read_bytes(file), text = plain_text(bytes);
-  const Header header = read_header(text);
+  const OffHeader header = read_header(text);
   if (!header.binary) return read_text(std::string_view(text).substr(header.length), header, limits);
   return read_binary(std::string_view(bytes).substr(bytes.find('\n') + 1), header, limits);
 }

@@ -33,7 +33,7 @@ struct Element {
   std::vector<Property> property;
 };
 
-struct Header {
+struct PlyHeader {
   enum class Format { ascii, little, big } format = Format::ascii;
   std::vector<Element> element;
   std::string texture;     // MeshLab's comment TextureFile
@@ -76,7 +76,7 @@ class HeaderReader {
  public:
   explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}
 
-  Header header() {
+  PlyHeader header() {
     if (next_line() != "ply") throw InputError("it does not begin with 'ply'; it is no PLY file");
     while (true) {
       if (at_ >= bytes_.size()) throw InputError("its header has no end; it is truncated or no PLY file");
@@ -120,7 +120,7 @@ class HeaderReader {
   }
 
   void take_format(const std::string& name) {
-    using Format = Header::Format;
+    using Format = PlyHeader::Format;
     static const std::map<std::string, Format> formats = {
         {"ascii", Format::ascii}, {"binary_little_endian", Format::little}, {"binary_big_endian", Format::big}};
     const auto found = formats.find(name);
@@ -145,7 +145,7 @@ class HeaderReader {
 
   std::string_view bytes_;
   std::size_t at_ = 0;
-  Header header_;
+  PlyHeader header_;
 };
 
 // The numbers after the header.
@@ -171,7 +171,7 @@ class TextNumbers : public Numbers {
 
  private:
   std::string_view text_;
-  Words words_;
+  TextWords words_;
 };
 
 class BinaryNumbers : public Numbers {
@@ -243,7 +243,7 @@ Role role_of(const Property& property) {
 
 class Body {
  public:
-  Body(const Header& header, Numbers& numbers, const ImportLimits& limits, std::size_t bytes)
+  Body(const PlyHeader& header, Numbers& numbers, const ImportLimits& limits, std::size_t bytes)
       : header_(header), numbers_(numbers), limits_(limits), bytes_(bytes), builder_(limits) {}
 
   PolygonSoup soup() {
@@ -385,7 +385,7 @@ class Body {
     }
   }
 
-  const Header& header_;
+  const PlyHeader& header_;
   Numbers& numbers_;
   const ImportLimits& limits_;
   std::size_t bytes_;
@@ -407,14 +407,14 @@ bool is_binary(const std::string& bytes) {
 PolygonSoup read_ply(const std::filesystem::path& file, const ImportLimits& limits) {
   std::string bytes = read_bytes(file);
   if (!is_binary(bytes)) bytes = plain_text(std::move(bytes));
-  const Header header = HeaderReader(bytes).header();
+  const PlyHeader header = HeaderReader(bytes).header();
   const std::string_view data = std::string_view(bytes).substr(header.length);
-  if (header.format == Header::Format::ascii) {
+  if (header.format == PlyHeader::Format::ascii) {
     const auto lines = std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(header.length), '\n');
     TextNumbers numbers(data, static_cast<int>(lines) + 1);
     return Body(header, numbers, limits, data.size()).soup();
   }
-  BinaryNumbers numbers(data, header.format == Header::Format::little ? std::endian::little : std::endian::big);
+  BinaryNumbers numbers(data, header.format == PlyHeader::Format::little ? std::endian::little : std::endian::big);
   return Body(header, numbers, limits, data.size()).soup();
 }
 

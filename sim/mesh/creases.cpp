@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "sim/mesh/disjoint_sets.h"
 #include "sim/mesh/mesh_edges.h"
 
 namespace billow::sim {
@@ -23,28 +23,19 @@ int corner_at(const Face& face, int vertex) {
   return static_cast<int>(std::find(face.begin(), face.end(), vertex) - face.begin());
 }
 
-// Union by the smaller number.
-int root_of(std::vector<int>& parent, int k) {
-  while (parent[k] != k) k = parent[k] = parent[parent[k]];
-  return k;
-}
-
 /// Number 4 f + c of a corner of face f -> the smallest number that hangs together with it.
 std::vector<int> joined_corners(const Mesh& mesh, double angle) {
-  std::vector<int> parent(4 * mesh.face.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets sets(static_cast<int>(4 * mesh.face.size()));
   for (const Edge& edge : distinct_edges(mesh)) {
     if (edge.face.size() != 2) continue;
     const Face &one = mesh.face[edge.face[0]], &other = mesh.face[edge.face[1]];
     if (!(unit_normal(mesh, one).dot(unit_normal(mesh, other)) >= std::cos(angle))) continue;
-    for (const int vertex : {edge.first, edge.second}) {
-      const int a = root_of(parent, 4 * edge.face[0] + corner_at(one, vertex));
-      const int b = root_of(parent, 4 * edge.face[1] + corner_at(other, vertex));
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const int vertex : {edge.first, edge.second})
+      sets.join(4 * edge.face[0] + corner_at(one, vertex), 4 * edge.face[1] + corner_at(other, vertex));
   }
-  for (int k = 0; k < static_cast<int>(parent.size()); ++k) parent[k] = root_of(parent, k);
-  return parent;
+  std::vector<int> joined(4 * mesh.face.size());
+  for (std::size_t k = 0; k < joined.size(); ++k) joined[k] = sets.root(static_cast<int>(k));
+  return joined;
 }
 
 }  // namespace

@@ -234,11 +234,12 @@ TEST_F(CompareCommand, TakesAnyVersionOfABaseline) {
   const Json json = Json::parse(compare({"a", "b", "--json"}).output);
   ASSERT_EQ(json["images"].size(), 1u);
   EXPECT_EQ(json["images"][0]["a"], "a/1.2.png");
+  EXPECT_EQ(json["images"][0]["why"], "equal, to 1.2.png");
   EXPECT_EQ(json["same"], true);
   write("b/1.png", changed(picture(), 5, 5, 60));
   EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"][0]["a"], "a/1.png");
   write("b/1.1.png", picture());  // now both folders have it: a picture of its own
-  EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"].size(), 2u);
+  EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"].size(), 3u);  // and 1.2.png is missing in b
 }
 
 TEST_F(CompareCommand, AcceptsWhatDiffersOrIsNewAndNothingElse) {
@@ -253,9 +254,13 @@ TEST_F(CompareCommand, AcceptsWhatDiffersOrIsNewAndNothingElse) {
   write("a/broken.png", picture());
   folder_.write("b/broken.png", "no image");
   const std::string near = test::read_text(folder_.path() / "a/near.png");
-  EXPECT_EQ(compare({"a", "b", "--accept", "differ.png"}).errors,
-            "--accept: there is no image 'differ.png'; did you mean 'differs.png'?\n");
-  EXPECT_THAT(compare({"a", "b", "--accept", "below/new.png"}).output, HasSubstr("accepted below/new.png\n"));
+  EXPECT_EQ(compare({"a", "b", "--accept-only", "differ.png"}).errors,
+            "--accept-only: there is no image 'differ.png'; did you mean 'differs.png'?\n");
+  EXPECT_EQ(compare({"a", "b", "--accept-only", "gone.png"}).status, 4);
+  EXPECT_EQ(compare({"a", "b", "--accept-only", ""}).status, 4);  // a variable that is not set
+  EXPECT_EQ(compare({"a", "b", "--accept-only", "broken.png"}).errors,
+            "--accept-only: b/broken.png: is not a PNG image\n");
+  EXPECT_THAT(compare({"a", "b", "--accept-only", "below/new.png"}).output, HasSubstr("accepted below/new.png\n"));
   EXPECT_EQ(render::read_png(folder_.path() / "a/below/new.png").pixels, other.pixels);
   EXPECT_EQ(render::read_png(folder_.path() / "a/differs.png").pixels, picture().pixels);
 
@@ -299,6 +304,66 @@ TEST_F(CompareCommand, WritesWhatBuildServersRead) {
             "    <failure message=\"missing in a\"/>\n"
             "  </testcase>\n"
             "</testsuite>\n");
+}
+
+TEST_F(CompareCommand, AcceptsOnlyWholeImagesAndThroughNoLink) {
+  unsetenv("CI");
+  folder_.write("a/damaged.png", "no image");
+  write("b/damaged.png", picture());
+  folder_.write("b/new.png", "no image");
+  std::filesystem::create_directories(folder_.path() / "a");
+  std::filesystem::create_directories(folder_.path() / "elsewhere");
+  std::filesystem::create_directory_symlink("../elsewhere", folder_.path() / "a/sub");
+  write("b/sub/x.png", picture());
+  const ToolResult result = compare({"a", "b", "--accept"});
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.errors, HasSubstr("is a link, and nothing is written through it"));
+  EXPECT_THAT(result.errors, HasSubstr("; accepted until then: damaged.png\n"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "elsewhere"));
+  EXPECT_EQ(render::read_png(folder_.path() / "a/damaged.png").pixels, picture().pixels);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a/new.png"));
+
+  const ToolResult first = compare({"nothing yet", "b/sub", "--accept"});
+  EXPECT_EQ(first.status, 0) << first.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "nothing yet/x.png"));
+}
+
+TEST_F(CompareCommand, SaysWhatItDoesNotLookInto) {
+  write("a/1.png", picture());
+  write("b/1.png", picture());
+  std::filesystem::create_directory_symlink("..", folder_.path() / "a/up");
+  std::filesystem::create_symlink("nowhere", folder_.path() / "b/2.png");
+  folder_.write("a/One.tolerance.yaml", "reason: a slip\n");
+  const ToolResult result = compare({"a", "b"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: a/up: is a link to a folder, which is not followed\n"));
+  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/2.png: cannot open the image: No such file or directory\n"));
+  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: there is no picture One.png that it is for\n"));
+  EXPECT_THAT(result.output, HasSubstr("1 of 4 the same\n"));
+}
+
+TEST_F(CompareCommand, TakesAMaskBesideABaselineForNoPicture) {
+  write("a/1.png", picture());
+  write("b/1.png", changed(picture(), 3, 5, 100));
+  Image mask(20, 10);
+  for (auto& value : mask.pixels) value = 255;
+  for (int c = 0; c < 3; ++c) mask.row(5)[3 * 3 + c] = 0;
+  write("a/1_mask.png", mask);
+  folder_.write("a/1.tolerance.yaml", "reason: r\nmask: 1_mask.png\n");
+  const ToolResult result = compare({"a", "b"});
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
+TEST_F(CompareCommand, ReplacesNeitherAnImageNorAnotherPage) {
+  write("a.png", picture());
+  write("b.png", changed(picture(), 3, 5, 100));
+  EXPECT_EQ(compare({"a.png", "b.png", "--diff", "./a.png"}).errors,
+            "--diff would replace one of the images; name another file\n");
+  folder_.write("site/index.html", "<html>mine</html>");
+  EXPECT_EQ(compare({"a.png", "b.png", "--report", "site"}).status, 6);
+  EXPECT_EQ(test::read_text(folder_.path() / "site/index.html"), "<html>mine</html>");
+  EXPECT_EQ(compare({"a.png", "b.png", "--report", "page"}).status, 3);
+  EXPECT_EQ(compare({"a.png", "b.png", "--report", "page"}).status, 3);
 }
 
 }  // namespace
