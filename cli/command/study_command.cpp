@@ -96,6 +96,15 @@ std::vector<DueRun> due_runs(const StudyPlan& plan, bool all) {
   return due;
 }
 
+// Runs that another process, told to overwrite, has begun anew since.
+std::vector<DueRun> begun_anew(const StudyPlan& plan) {
+  std::vector<DueRun> due;
+  for (const StudyRun& run : plan.runs)
+    if (plan.result_of(run.number).status == RunStatus::missing && claim_holder(plan.claim_of(run.number)))
+      due.push_back({run.number, result_stamp(plan.folder_of(run.number))});
+  return due;
+}
+
 void run_missing(const StudyPlan& plan, const StudyOptions& options) {
   const std::vector<DueRun> due = due_runs(plan, options.overwrite);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -103,6 +112,8 @@ void run_missing(const StudyPlan& plan, const StudyOptions& options) {
   say_line("{}: {} runs, {} of them finished already", plan.study.file.string(), plan.runs.size(),
            plan.runs.size() - due.size());
   do_runs(plan, due, jobs);
+  for (auto others = begun_anew(plan); !others.empty() && interrupted_by() == 0; others = begun_anew(plan))
+    do_runs(plan, others, jobs);
 }
 
 // Says which runs lack, the first few by name; their number.

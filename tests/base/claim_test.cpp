@@ -107,7 +107,7 @@ TEST_F(ClaimTest, OfANumberThatIsAnotherProcessByNowIsTakenOver) {
     std::ofstream held(file_);
     const auto claim = take_claim(folder_.path() / "other");
     const std::string text = test::read_text(folder_.path() / "other");
-    held << test::read_text(folder_.path() / "other").replace(text.find("started: "), 10, "started: 9");
+    held << test::read_text(folder_.path() / "other").replace(text.find("started: "), 9, "started: 1");
   }
   EXPECT_TRUE(is_taken(take_claim(file_)));
 }

@@ -91,7 +91,7 @@ TEST_F(CompareCommand, EndsWith4OnlyWhereNothingCouldBeCompared) {
   const ToolResult result = compare({"a", "b"});
   EXPECT_EQ(result.status, 4);
   EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/1.png: is not a PNG image"));
-  EXPECT_EQ(result.errors, "no pair of images could be read\n");
+  EXPECT_EQ(result.errors, "b/1.png: is not a PNG image\n");
   EXPECT_EQ(compare({"a/1.png", "b/1.png"}).errors, "b/1.png: is not a PNG image\n");
   write("a/2.png", picture());
   EXPECT_EQ(compare({"a", "b"}).status, 3);
