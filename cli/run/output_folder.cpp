@@ -62,7 +62,7 @@ bool is_link(const fs::path& path) {
 
 // Where runs write to, besides what is in these.
 std::vector<fs::path> folders_of_runs(const fs::path& folder) {
-  std::vector<fs::path> folders = {folder / "caches", folder / StateStore::folder_name};
+  std::vector<fs::path> folders = {folder / caches_name, folder / StateStore::folder_name};
   for (const render::ViewRow& view : render::views()) folders.push_back(folder / view.folder);
   return folders;
 }
@@ -95,12 +95,12 @@ void remove_caches(const fs::path& folder) {
 // The folders of a run: itself, those of its views, its states, its caches and their sequences.
 void remove_strays_of_runs(const fs::path& folder) {
   std::error_code error;
-  std::vector<fs::path> folders = {folder, folder / StateStore::folder_name, folder / caches_name};
-  for (const render::ViewRow& view : render::views()) folders.push_back(folder / view.folder);
+  std::vector<fs::path> folders = folders_of_runs(folder);
+  folders.push_back(folder);
   for (fs::directory_iterator entry(folder / caches_name, error), end; !error && entry != end; entry.increment(error))
     if (entry->is_directory(error)) folders.push_back(entry->path());
   for (const fs::path& each : folders)
-    if (!fs::is_symlink(each, error)) remove_strays(each);
+    if (!is_link(each)) remove_strays(each);
 }
 
 void remove_all_frames(const fs::path& folder) {
