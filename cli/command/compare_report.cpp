@@ -69,11 +69,7 @@ Json flip_uri(ComparedPair& pair) {
       std::copy(colour.begin(), colour.end(), map.row(y) + 3 * x);
     }
   });
-  std::vector<std::uint8_t> row_a(std::size_t(a.width()) * a.channels()), row_b(std::size_t(b.width()) * b.channels());
-  for (int y = 0; y < map.height; ++y) {
-    a.read(row_a.data()), b.read(row_b.data());
-    flip.add_row(row_a.data(), a.channels(), row_b.data(), b.channels());
-  }
+  for (int y = 0; y < map.height; ++y) flip.add_row(a.next(), a.channels(), b.next(), b.channels());
   flip.finish();
   const double pixels = double(map.width) * map.height;
   if (!pair.comparison->flip && pair.comparison->pixels == static_cast<std::int64_t>(pixels))

@@ -24,58 +24,46 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A PNG file and the row that was read last.
-struct Rows {
-  explicit Rows(const fs::path& file) : png(file), row(std::size_t(png.width()) * png.channels()) {}
-  void next() { png.read(row.data()); }
-  render::RowComparison::Shape shape() const { return {png.width(), png.height(), png.channels()}; }
+using render::PngRows;
 
-  render::PngRows png;
-  std::vector<std::uint8_t> row;
-};
+render::RowComparison::Shape shape_of(const PngRows& rows) { return {rows.width(), rows.height(), rows.channels()}; }
 
 /// What counts of a row: where the mask's luma is at least half of white.
 class Mask {
  public:
-  Mask(const fs::path& file, const Rows& image) : rows_(file), counts_(static_cast<std::size_t>(image.png.width())) {
-    if (rows_.png.width() != image.png.width() || rows_.png.height() != image.png.height())
+  Mask(const fs::path& file, const PngRows& image) : rows_(file), counts_(static_cast<std::size_t>(image.width())) {
+    if (rows_.width() != image.width() || rows_.height() != image.height())
       throw InputError(fmt::format("{}: the mask has {} x {} pixels and the image {} x {}", file.string(),
-                                   rows_.png.width(), rows_.png.height(), image.png.width(), image.png.height()));
+                                   rows_.width(), rows_.height(), image.width(), image.height()));
   }
 
   const std::uint8_t* next() {
-    rows_.next();
-    const std::uint8_t* pixel = rows_.row.data();
+    const std::uint8_t* pixel = rows_.next();
     for (std::uint8_t& count : counts_) {
       count = 2126 * pixel[0] + 7152 * pixel[1] + 722 * pixel[2] >= 10000 * 128;
-      pixel += rows_.png.channels();
+      pixel += rows_.channels();
     }
     return counts_.data();
   }
 
  private:
-  Rows rows_;
+  PngRows rows_;
   std::vector<std::uint8_t> counts_;
 };
 
-render::Comparison comparison_of(Rows& a, Rows& b, const ImageTolerance& tolerance) {
-  render::RowComparison comparison(a.shape(), b.shape(), tolerance.what);
+render::Comparison comparison_of(PngRows& a, PngRows& b, const ImageTolerance& tolerance) {
+  render::RowComparison comparison(shape_of(a), shape_of(b), tolerance.what);
   std::optional<Mask> mask;
   if (!tolerance.mask.empty()) mask.emplace(tolerance.mask, a);
-  for (int y = 0; y < a.png.height(); ++y) {
-    a.next(), b.next();
-    comparison.add_row(a.row.data(), b.row.data(), mask ? mask->next() : nullptr);
-  }
+  for (int y = 0; y < a.height(); ++y) comparison.add_row(a.next(), b.next(), mask ? mask->next() : nullptr);
   return comparison.finish();
 }
 
 // Of two files that have been compared.
 void write_difference(const fs::path& file, const ComparedPair& pair) {
-  Rows a(pair.a), b(pair.b);
-  const int width = a.png.width();
-  render::write_png_rows(file, width, a.png.height(), 3, [&](int, std::uint8_t* row) {
-    a.next(), b.next();
-    render::difference_row(a.row.data(), a.png.channels(), b.row.data(), b.png.channels(), width, row);
+  PngRows a(pair.a), b(pair.b);
+  render::write_png_rows(file, a.width(), a.height(), 3, [&](int, std::uint8_t* row) {
+    render::difference_row(a.next(), a.channels(), b.next(), b.channels(), a.width(), row);
   });
 }
 
@@ -84,10 +72,10 @@ void judge(ComparedPair& pair, const fs::path& baseline, const CompareOptions& o
   try {
     const ImageTolerance tolerance = tolerance_of(baseline, options.tolerance);
     pair.reason = tolerance.reason;
-    Rows a(pair.a), b(pair.b);
+    PngRows a(pair.a), b(pair.b);
     pair.verdict = Verdict::different;
-    pair.why = fmt::format("{} x {} and {} x {} pixels", a.png.width(), a.png.height(), b.png.width(), b.png.height());
-    if (a.png.width() != b.png.width() || a.png.height() != b.png.height()) return;
+    pair.why = fmt::format("{} x {} and {} x {} pixels", a.width(), a.height(), b.width(), b.height());
+    if (a.width() != b.width() || a.height() != b.height()) return;
     pair.comparison = comparison_of(a, b, tolerance);
     pair.why = render::difference_text(*pair.comparison, tolerance.what.threshold);
     if (render::within_tolerance(*pair.comparison, tolerance.allowed)) pair.verdict = Verdict::same;
@@ -207,8 +195,8 @@ ComparedPair judged(const std::string& name, const Names& names, const CompareOp
 // Whether it can be read to its end; why not, if not.
 std::optional<std::string> fault_of(const fs::path& file) {
   try {
-    Rows rows(file);
-    for (int y = 0; y < rows.png.height(); ++y) rows.next();
+    PngRows rows(file);
+    for (int y = 0; y < rows.height(); ++y) rows.next();
     return std::nullopt;
   } catch (const InputError& error) {
     return error.what();

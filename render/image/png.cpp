@@ -252,12 +252,18 @@ Image image_of(PngSource source) {
 
 }  // namespace
 
-PngRows::PngRows(const std::filesystem::path& file) : source_(std::make_unique<PngSource>(open_to_read(file), file)) {}
+PngRows::PngRows(const std::filesystem::path& file)
+    : source_(std::make_unique<PngSource>(open_to_read(file), file)),
+      row_(std::size_t(source_->width) * source_->channels) {}
 PngRows::~PngRows() = default;
 int PngRows::width() const { return source_->width; }
 int PngRows::height() const { return source_->height; }
 int PngRows::channels() const { return source_->channels; }
-void PngRows::read(std::uint8_t* row) { source_->read(row); }
+
+const std::uint8_t* PngRows::next() {
+  source_->read(row_.data());
+  return row_.data();
+}
 
 Image read_png(const std::filesystem::path& file) { return image_of({open_to_read(file), file}); }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "render/image/image.h"
@@ -29,11 +30,13 @@ class PngRows {
   int width() const;
   int height() const;
   int channels() const;
-  /// The next of height() rows of width() * channels() values. Throws InputError where the file is damaged.
-  void read(std::uint8_t* row);
+  /// The next of height() rows of width() * channels() values, which stay until the next call. Throws InputError where
+  /// the file is damaged.
+  const std::uint8_t* next();
 
  private:
   std::unique_ptr<PngSource> source_;
+  std::vector<std::uint8_t> row_;
 };
 
 /// As read_png, of the bytes of a file; `name` stands for it in messages.
