@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <sstream>
+#include <utility>
 
 #include "render/image/png.h"
 #include "tests/support/mesh_files.h"
@@ -45,17 +47,27 @@ std::vector<std::string> console_of(const std::string& log) {
   return console;
 }
 
+// The page is printed as HTML.
+std::string unescaped(std::string text) {
+  for (const auto& [written, meant] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
+    for (std::size_t at = 0; (at = text.find(written, at)) != std::string::npos; at += 1)
+      text.replace(at, std::strlen(written), meant);
+  return text;
+}
+
 nlohmann::json result_in(const std::string& page) {
   const std::string open = "<pre id=\"result\">";
   const std::size_t begin = page.find(open);
   const std::size_t end = page.find("</pre>", begin);
   if (begin == std::string::npos || end == std::string::npos) return {};
-  return nlohmann::json::parse(page.substr(begin + open.size(), end - begin - open.size()), nullptr, false);
+  return nlohmann::json::parse(unescaped(page.substr(begin + open.size(), end - begin - open.size())), nullptr, false);
 }
 
 }  // namespace
 
 Visit visit(const fs::path& folder, const std::string& page, double seconds) {
+  fs::copy_file(fs::path(BILLOW_SOURCE_DIR) / "tests/support/visit.js", folder / "visit.js",
+                fs::copy_options::overwrite_existing);
   const ToolResult result =
       run_chromium(folder, page, {"--dump-dom", fmt::format("--virtual-time-budget={:.0f}", 1000.0 * seconds)});
   return {result_in(result.output), console_of(result.errors)};
