@@ -70,7 +70,7 @@ void require_trusted(const fs::path& file) {
   if (!named_file || named_file->outside == Outside::readable) return;
   const fs::path absolute = absolute_of(file);
   if (is_inside(absolute)) return;
-  throw InputError(fmt::format("{} {}, and with --untrusted nothing outside of {} is read",
+  throw InputError(fmt::format("{} {}, and with --untrusted nothing outside of {} is read; copy it there",
                                file.lexically_normal().string(), way_out(absolute),
                                named_file->written_folder.string()));
 }

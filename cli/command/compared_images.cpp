@@ -31,7 +31,8 @@ render::RowComparison::Shape shape_of(const PngRows& rows) { return {rows.width(
 /// What counts of a row: where the mask's luma is at least half of white.
 class Mask {
  public:
-  Mask(const fs::path& file, const PngRows& image) : rows_(file), counts_(static_cast<std::size_t>(image.width())) {
+  Mask(const fs::path& file, const PngRows& image)
+      : rows_(opened(file)), counts_(static_cast<std::size_t>(image.width())) {
     if (rows_.width() != image.width() || rows_.height() != image.height())
       throw InputError(fmt::format("{}: the mask has {} x {} pixels and the image {} x {}", file.string(),
                                    rows_.width(), rows_.height(), image.width(), image.height()));
@@ -47,6 +48,15 @@ class Mask {
   }
 
  private:
+  static PngRows opened(const fs::path& file) {
+    try {
+      return PngRows(file);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("the mask {}; give a PNG image of the pictures' size, white where it counts", error.what()));
+    }
+  }
+
   PngRows rows_;
   std::vector<std::uint8_t> counts_;
 };

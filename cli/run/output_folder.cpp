@@ -130,6 +130,12 @@ bool is_same_run(const fs::path& folder, const Scene& scene) {
 
 void check_same_run(const fs::path& folder, const Scene& scene) {
   if (is_same_run(folder, scene)) return;
+  if (std::error_code error; !fs::exists(folder / word_of(RunFile::record), error))
+    throw OutputError(
+        fmt::format("{} holds files but no run.json, so there is no run to resume; use --overwrite to write into it "
+                    "all the same, or -o for "
+                    "another folder",
+                    folder.string()));
   throw OutputError(fmt::format("{} is not of this scene, so its run cannot be resumed; use --overwrite to replace it",
                                 (folder / "run.json").string()));
 }

@@ -179,6 +179,10 @@ TEST_F(CompareCommand, CountsWhatTheMaskLeaves) {
   const ToolResult small = compare({"a.png", "b.png", "--mask", "small.png"});
   EXPECT_EQ(small.status, 4);
   EXPECT_EQ(small.errors, "small.png: the mask has 4 x 4 pixels and the image 20 x 10\n");
+  EXPECT_EQ(
+      compare({"a.png", "b.png", "--mask", "none.png"}).errors,
+      "the mask none.png: cannot open the image: No such file or directory; give a PNG image of the pictures' size, "
+      "white where it counts\n");
 }
 
 TEST_F(CompareCommand, CanIgnoreAlpha) {

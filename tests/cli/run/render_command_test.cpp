@@ -284,6 +284,16 @@ TEST_F(RenderCommand, KeepsTheEarlierFilmWhenInterruptedBeforeTheFirstFrame) {
   EXPECT_EQ(record()["status"], "done");
 }
 
+TEST_F(RenderCommand, ResumesNoFolderThatHasNoRun) {
+  folder_.write("film/notes.txt", "mine");
+  const ToolResult result = render({"--resume"});
+  EXPECT_EQ(result.status, 6);
+  EXPECT_NE(result.errors.find("film holds files but no run.json, so there is no run to resume; use"),
+            std::string::npos)
+      << result.errors;
+  EXPECT_EQ(test::read_text(film("notes.txt")), "mine");
+}
+
 TEST_F(RenderCommand, SurvivesADamagedRecord) {
   ASSERT_EQ(render().status, 0);
   folder_.write("film/run.json", "{\"scene\": 5}");
