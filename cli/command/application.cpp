@@ -22,6 +22,7 @@
 #include "cli/text/terminal.h"
 #include "cli/text/text_file.h"
 #include "cli/text/version.h"
+#include "render/gl/backend.h"
 
 namespace billow::cli {
 
@@ -73,7 +74,7 @@ struct Request {
   VideoOptions video;
   SheetOptions sheet;
   std::vector<std::string> overrides, metrics;
-  std::string frames, caches, pixels;
+  std::string frames, caches, pixels, backend;
   bool overwrite = false, resume = false, untrusted = false;
   std::function<int()> command;
 };
@@ -118,6 +119,30 @@ void add_progress(CLI::App& command, ProgressStyle& style) {
       ->type_name("STYLE");
 }
 
+// What draws is known before anything runs, be it of the option or of the environment.
+template <class Parse>
+render::Backend backend_by(const Parse& parse) {
+  try {
+    return parse();
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError("--backend", error.what());
+  }
+}
+
+void add_backend(CLI::App& command, Request& request) {
+  command
+      .add_option("--backend", request.backend,
+                  "What draws: auto, osmesa, egl, or egl:N for the GPU of that number in 'billow doctor' (default: "
+                  "BILLOW_BACKEND, or auto, which is always software, so that bytes repeat)")
+      ->type_name("NAME");
+}
+
+render::Backend chosen_backend(const Request& request) {
+  return backend_by([&] {
+    return request.backend.empty() ? render::backend_of_environment() : render::parse_backend(request.backend);
+  });
+}
+
 // What running a scene takes, drawn or not.
 void add_run_options(CLI::App& c, Request& r) {
   add_scene_options(c, r.render.scene, r);
@@ -139,6 +164,7 @@ void add_run_options(CLI::App& c, Request& r) {
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
     if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
+    if (!r.render.simulate_only) r.render.backend = chosen_backend(r);
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
     set_command(r, r.render.scene, [&r] { return render_command(r.render); });
   });
@@ -147,6 +173,7 @@ void add_run_options(CLI::App& c, Request& r) {
 void add_render(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("render", "Simulate a scene and write its frames, strip, record and page");
   add_run_options(c, r);
+  add_backend(c, r);
   CLI::Option* resume = c.get_option("--resume");
   c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 7, 1-250, 300-, every fifth 1-250:5, or a list")
       ->type_name("LIST")
@@ -276,8 +303,10 @@ void add_study(CLI::App& app, Request& r) {
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  add_backend(c, r);
   c.final_callback([&r] {
     r.study.untrusted = r.untrusted;
+    r.study.backend = chosen_backend(r);
     set_command(r, r.study.study, [&r] { return study_command(r.study); });
   });
 }
@@ -338,7 +367,7 @@ void add_commands(CLI::App& app, Request& r) {
   add_compare(app, r);
   add_video(app, r);
   add_sheet(app, r);
-  app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
+  app.add_subcommand("doctor", "Print versions, what can draw here, and what is missing")->final_callback([&r] {
     r.command = doctor_command;
   });
 }

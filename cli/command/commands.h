@@ -9,6 +9,7 @@
 #include "cli/command/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
+#include "render/gl/backend.h"
 
 namespace billow::cli {
 
@@ -65,6 +66,7 @@ struct StudyOptions {
   bool overwrite = false;        // run again what is finished
   int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
   bool untrusted = false;        // runs read no file outside of the study's folder either
+  render::Backend backend = {};  // that draws its runs
 };
 int study_command(const StudyOptions& options);
 

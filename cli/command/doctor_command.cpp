@@ -6,26 +6,16 @@
 
 #include <thread>
 
-#include "cli/command/application.h"
+#include "cli/command/backend_list.h"
 #include "cli/command/commands.h"
 #include "cli/text/terminal.h"
 #include "cli/text/version.h"
-#include "render/frame/mesh_renderer.h"
 
 namespace billow::cli {
 
 namespace {
 
 void line(std::string_view what, std::string_view value) { print_line("{:<12} {}", what, value); }
-
-// The renderer starts with nothing to draw: enough to know that GL works.
-std::string gl_description() {
-  render::Settings settings;
-  settings.width = settings.height = 64;
-  render::RunBounds bounds;
-  bounds.box = Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones());
-  return render::MeshRenderer(settings, {}, bounds).description();
-}
 
 std::string cpu_features() {
   std::string features;
@@ -64,13 +54,7 @@ int doctor_command() {
   line("gnuplot",
        has_program("gnuplot") ? "found" : "missing: plots of 'study' and 'filter' are not drawn (gnuplot-nox)");
   line("ffmpeg", has_program("ffmpeg") ? "found" : "missing: 'video' makes no film (ffmpeg)");
-  try {
-    line("GL", gl_description());
-  } catch (const std::exception& error) {
-    line("GL", fmt::format("MISSING: {}", error.what()));
-    return exit_internal_fault;
-  }
-  return exit_done;
+  return print_backends();
 }
 
 }  // namespace billow::cli

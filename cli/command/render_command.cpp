@@ -15,6 +15,7 @@ int render_command(const RenderOptions& options) {
   range_of(options, scene);
   if (!options.from.empty()) check_stored_states(options.from);
   check_output_folder(output_of(options), existing_of(options), scene);
+  check_backend(options);
   progress.phase("springs");
   const Simulation simulation(scene);
   progress.phase("limit");

@@ -19,6 +19,7 @@
 #include "cli/study/study_run.h"
 #include "cli/study/study_work.h"
 #include "cli/text/terminal.h"
+#include "render/gl/gl_context.h"
 
 namespace billow::cli {
 
@@ -69,7 +70,7 @@ int list_runs(const StudyPlan& plan) {
 // In a process of its own, which run_jobs has started.
 int perform(const StudyPlan& plan, int number) {
   catch_interrupts();
-  const RunResult result = perform_run(plan.study, plan.run(number), plan.folder_of(number));
+  const RunResult result = perform_run(plan.study, plan.run(number), plan.folder_of(number), plan.backend);
   if (interrupted_by() != 0) return 128 + interrupted_by();
   say_line("{}: {}{}", plan.name_of(number), name(result.status), result.message.empty() ? "" : "; " + result.message);
   return exit_done;
@@ -154,6 +155,7 @@ int assemble(const StudyPlan& plan) {
 int study_command(const StudyOptions& options) {
   StudyPlan plan = make_plan(options.study, options.output);
   plan.untrusted = options.untrusted;
+  plan.backend = options.backend;
   if (options.perform) {
     check_number(plan, "--perform", *options.perform);
     return perform(plan, *options.perform);
@@ -166,6 +168,7 @@ int study_command(const StudyOptions& options) {
     for (const StudyRun& run : plan.runs) read_hash(plan, run.number);
   }
   if (options.list) return list_runs(plan);
+  if (!options.collect && plan.study.measures.render) render::GlContext(plan.backend);  // before every run fails by it
   catch_interrupts();
   make_folders(plan);
   if (options.only) return do_one(plan, *options.only);

@@ -186,8 +186,9 @@ class Film {
   void draw() {
     std::optional<render::MeshRenderer> renderer;  // no GL where nothing is drawn
     if (!plan_.views.empty())
-      renderer.emplace(run_.drawn.settings(), run_.drawn.bodies(), bounds_from_origin(), threads_);
-    if (renderer) report_.gl = renderer->description();
+      renderer.emplace(run_.drawn.settings(), run_.drawn.bodies(), bounds_from_origin(),
+                       render::DrawingOptions{.backend = plan_.backend, .threads = threads_});
+    if (renderer) report_.backend = text_of(renderer->backend()), report_.gl = renderer->description();
     report_.velocity_range = setting_.velocity_range;
     progress_.begin(renderer ? "render" : "simulate", plan_.drawn.count());
     while (const auto snapshot = snapshots_.pop()) {

@@ -14,6 +14,7 @@
 #include "cli/run/run_series.h"
 #include "cli/run/spooled_states.h"
 #include "cli/run/state_source.h"
+#include "render/gl/backend.h"
 #include "sim/step/schemes.h"
 
 namespace billow::cli {
@@ -62,9 +63,9 @@ struct FilmReport {
   int strip_columns = 0;
   std::vector<WrittenArray> arrays = {};
   RunFacts facts = {};
-  double simulated_time = 0.0;  // [s] until the end, or where it was interrupted
-  double velocity_range = 0.0;  // [m/s]
-  std::string gl = {};
+  double simulated_time = 0.0;        // [s] until the end, or where it was interrupted
+  double velocity_range = 0.0;        // [m/s]
+  std::string backend = {}, gl = {};  // what drew: as --backend has it, and as GL says; empty where nothing was drawn
   ResidentMemory memory = {};
   StageCost simulate = {}, draw = {}, encode = {};
   StageCost total = {};    // `cpu` of the whole process: the renderer's own threads, which `draw` cannot see, included
@@ -90,6 +91,7 @@ struct FilmPlan {
   FrameRange recorded;              // frames that the other outputs are of
   std::vector<render::View> views;  // of each; may be none
   bool only_frames = false;         // nothing that takes other moments than the frames'
+  render::Backend backend = {};     // that draws them
 };
 
 /// Draws frames into `folder`, and writes what else the scene asks for. States, drawing and `threads` encoders overlap;

@@ -24,6 +24,7 @@
 #include "cli/run/spooled_states.h"
 #include "cli/scene/mesh_warnings.h"
 #include "cli/scene/step_warnings.h"
+#include "render/gl/gl_context.h"
 
 namespace billow::cli {
 
@@ -52,6 +53,10 @@ nlohmann::ordered_json made_elsewhere(const nlohmann::json& record) {
 
 std::vector<render::View> views_of(const RenderOptions& options, const Scene& scene) {
   return options.simulate_only ? std::vector<render::View>() : scene.render.views;
+}
+
+render::Backend backend_of(const RenderOptions& options) {
+  return options.backend ? *options.backend : render::backend_of_environment();
 }
 
 void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, bool states_only) {
@@ -171,7 +176,8 @@ class SceneRun {
   FilmPlan plan() const {
     const FrameRange drawn = range_of(options_, run_.scene);
     const FrameRange all{1, frame_count(run_.scene)};
-    return {drawn, draws_stored(options_) ? all : drawn, views_of(options_, run_.scene), draws_stored(options_)};
+    return {drawn, draws_stored(options_) ? all : drawn, views_of(options_, run_.scene), draws_stored(options_),
+            backend_of(options_)};
   }
 
   void finish(const FilmReport& report) {
@@ -227,6 +233,10 @@ Existing existing_of(const RenderOptions& options) {
 FrameRange range_of(const RenderOptions& options, const Scene& scene) {
   const long frames = frame_count(scene);
   return options.frames.empty() ? FrameRange{1, frames} : frames_in(options.frames, frames);
+}
+
+void check_backend(const RenderOptions& options) {
+  if (!options.simulate_only) render::GlContext(backend_of(options), options.threads);
 }
 
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,

@@ -9,6 +9,7 @@
 #include "cli/run/output_folder.h"
 #include "cli/run/progress.h"
 #include "cli/run/run.h"
+#include "render/gl/backend.h"
 
 namespace billow::cli {
 
@@ -20,8 +21,9 @@ struct RenderOptions {
   std::filesystem::path from;     // a run whose states are drawn; empty: simulate
   bool simulate_only = false;     // keep the states, and draw nothing
   Existing existing = Existing::refuse;
-  int threads = 0;       // 0: one per core
-  bool durable = false;  // files are on the disk before they have their names
+  int threads = 0;                              // 0: one per core
+  std::optional<render::Backend> backend = {};  // that draws; none: BILLOW_BACKEND's, or automatic
+  bool durable = false;                         // files are on the disk before they have their names
   ProgressStyle progress = ProgressStyle::automatic;
   std::string command;  // as it was typed, for run.json
 };
@@ -32,6 +34,9 @@ std::filesystem::path output_of(const RenderOptions& options);
 Existing existing_of(const RenderOptions& options);
 /// Which frames are drawn. Throws InputError when the scene does not have them.
 FrameRange range_of(const RenderOptions& options, const Scene& scene);
+
+/// Tries what is to draw, so that what is wrong with it is found before anything is simulated. Throws ResourceError.
+void check_backend(const RenderOptions& options);
 
 /// Runs a scene that has been read and whose step has been chosen, as further phases of `progress`; of options.scene
 /// only the name is used, .overrides and .progress not at all. Returns 0, or 128 + a signal that ended it. Throws

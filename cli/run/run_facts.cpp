@@ -48,6 +48,10 @@ std::string caches_text(const std::vector<CacheRecord>& caches) {
   return text;
 }
 
+std::string drawn_by(const FilmReport& report) {
+  return report.gl.empty() ? "nothing" : fmt::format("{}: {}", report.backend, report.gl);
+}
+
 Facts facts_of(const Run& run, const FilmReport& report, const Progress& progress) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
@@ -68,7 +72,7 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
   facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
                              {"Images", images_text(report)},
                              {"Time taken", time_taken(progress, report)},
-                             {"Drawn by", report.gl},
+                             {"Drawn by", drawn_by(report)},
                              {"billow", std::string(version())}});
   return facts;
 }

@@ -213,6 +213,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
+  json["backend"] = report.backend;
   json["gl"] = report.gl;
   return json;
 }

@@ -7,6 +7,7 @@
 
 #include "cli/study/study.h"
 #include "cli/study/study_results.h"
+#include "render/gl/backend.h"
 
 namespace billow::cli {
 
@@ -17,6 +18,7 @@ struct StudyPlan {
   std::vector<StudyRun> runs;
   std::vector<std::string> hash;  // per run, what its result must carry to count; see read_hash()
   bool untrusted = false;         // no file outside of the study's folder is read
+  render::Backend backend = {};   // that draws its runs
 
   const StudyRun& run(int number) const { return runs[static_cast<std::size_t>(number) - 1]; }
   std::filesystem::path folder_of(int number) const { return run_folder(folder, study, run(number)); }

@@ -108,8 +108,10 @@ void add_error(RunResult& result, const Study& study, const StudyRun& run, const
 }
 
 void render_run(const Study& study, const StudyRun& run, const Scene& scene, const Simulation& simulation,
-                const StepChoice& choice, const std::filesystem::path& folder, Progress& progress) {
+                const StepChoice& choice, const std::filesystem::path& folder, const render::Backend& backend,
+                Progress& progress) {
   RenderOptions options;
+  options.backend = backend;
   options.scene = study.scene;
   options.output = folder / "film";
   options.existing = Existing::overwrite;
@@ -143,7 +145,8 @@ std::string command_of(const Study& study, const StudyRun& run) {
   return command_line(words);
 }
 
-RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder) {
+RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder,
+                      const render::Backend& backend) {
   Progress progress(ProgressStyle::none, process_start());
   const Scene scene = read_scene(study.scene, overrides_of(study, run), progress);
   RunResult result{RunStatus::done, run_hash(study, scene), command_of(study, run), "", scene.effective, {}};
@@ -159,7 +162,7 @@ RunResult perform_run(const Study& study, const StudyRun& run, const std::filesy
     if (study.measures.measured) add_measured(result, scene, simulation, choice);
     if (study.measures.repeats > 0) add_times(result, scene, simulation, choice, study.measures.repeats);
     if (study.measures.error.until > 0.0) add_error(result, study, run, simulation, choice);
-    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, progress);
+    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, backend, progress);
   } catch (const DivergenceError& error) {
     result.status = RunStatus::diverged;
     result.message = error.what();

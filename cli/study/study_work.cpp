@@ -78,6 +78,7 @@ class SharedRuns : public JobKeeper {
   JobCommand command_of(int number) override {
     std::vector<std::string> words = {
         "billow", "study", plan_.study.file.string(), "-o", plan_.folder.string(), "--perform", std::to_string(number)};
+    words.insert(words.end(), {"--backend", text_of(plan_.backend)});
     if (plan_.untrusted) words.push_back("--untrusted");
     return {words, plan_.log_of(number)};
   }

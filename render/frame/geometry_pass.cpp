@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/error.h"
 #include "render/frame/camera.h"
 #include "render/frame/shaders.h"
 #include "render/image/camera_motion.h"
@@ -19,8 +18,23 @@ constexpr int band_samples = 1 << 20;  // drawn and read at a time: what is held
 
 int grid_of(int samples) { return samples <= 1 ? 1 : samples <= 4 ? 2 : 4; }
 
-int rows_at_once(const Settings& settings, int grid) {
-  return std::clamp(band_samples / (settings.width * grid * grid), 1, settings.height);
+std::vector<PixelBox> panes_of(const FrameParts& frame, int grid) {
+  const int side = std::min(frame.tile_limits.data_viewport, frame.context.limits().max_size) / grid;
+  return split_evenly(frame.settings.width, frame.settings.height, side, side);
+}
+
+int rows_at_once(const PixelBox& pane, int grid) {
+  return std::clamp(band_samples / (pane.width() * grid * grid), 1, pane.height());
+}
+
+// What fills the pane of a picture fills the whole of it afterwards: clip space, before the division.
+Eigen::Matrix4d crop(const PixelBox& pane, int width, int height) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix(0, 0) = double(width) / pane.width();
+  matrix(1, 1) = double(height) / pane.height();
+  matrix(0, 3) = double(width - pane.left - pane.right) / pane.width();
+  matrix(1, 3) = double(height - pane.bottom - pane.top) / pane.height();
+  return matrix;
 }
 
 GlObject make_storage(const Gl& gl, GLenum format, int width, int height) {
@@ -45,8 +59,17 @@ GlObject make_target(const Gl& gl, const GlObject& hit, const GlObject& albedo, 
 
 Eigen::Vector3d vector_of(const float* xyz) { return Eigen::Vector3d(xyz[0], xyz[1], xyz[2]); }
 
+// Of the drawn target's pixels, the picture's.
+PixelBox picture_box(const FrameParts& frame) {
+  const int scale = frame.target.drawn_width() / frame.settings.width;
+  const PixelBox& box = frame.covered;
+  return {box.left / scale, box.bottom / scale, (box.right + scale - 1) / scale, (box.top + scale - 1) / scale};
+}
+
+}  // namespace
+
 /// Samples of one frame.
-class Sampler {
+class GeometryPass::Sampler {
  public:
   Sampler(const FrameParts& frame, int grid)
       : frame_(frame),
@@ -126,45 +149,32 @@ class Sampler {
   std::vector<std::vector<Eigen::Vector3d>> seen_;  // [m] of each body's corners, view space
 };
 
-// Of the drawn target's pixels, the picture's.
-PixelBox picture_box(const FrameParts& frame) {
-  const int scale = frame.target.drawn_width() / frame.settings.width;
-  const PixelBox& box = frame.covered;
-  return {box.left / scale, box.bottom / scale, (box.right + scale - 1) / scale, (box.top + scale - 1) / scale};
-}
-
-}  // namespace
-
 GeometryPass::GeometryPass(const FrameParts& frame)
     : gl_(&frame.gl()),
       width_(frame.settings.width),
       height_(frame.settings.height),
       grid_(grid_of(frame.settings.samples)),
-      band_rows_(rows_at_once(frame.settings, grid_)),
+      panes_(panes_of(frame, grid_)),
+      band_rows_(rows_at_once(panes_.front(), grid_)),
       programs_(frame.gl(), "geometry", shaders::surface_vertex, shaders::geometry_fragment, frame.albedos) {
-  const int limit = frame.context.limits().max_size / grid_;
-  if (width_ > limit || height_ > limit)
-    throw InputError(
-        fmt::format("render.size {} x {} has no data, depth, normal or id view with these samples: at "
-                    "most {} pixels each way",
-                    width_, height_, limit));
-  const int w = width_ * grid_, h = band_rows_ * grid_;
+  const int w = panes_.front().width() * grid_, h = band_rows_ * grid_;
   hit_storage_ = make_storage(*gl_, GL_RG32UI, w, h);
   albedo_storage_ = make_storage(*gl_, GL_RGBA32F, w, h);
   depth_storage_ = make_storage(*gl_, GL_DEPTH_COMPONENT32F, w, h);
   target_ = make_target(*gl_, hit_storage_, albedo_storage_, depth_storage_);
 }
 
-// The window onto the picture moves up by the band.
-void GeometryPass::draw_band(const FrameParts& frame, int bottom) const {
+// The window onto the pane moves up by the band, which begins at a row of the picture.
+void GeometryPass::draw_band(const FrameParts& frame, const PixelBox& pane, int bottom) const {
   const GLuint nothing[] = {0, 0, 0, 0};
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  gl_->Viewport(0, -bottom * grid_, width_ * grid_, height_ * grid_);
+  gl_->Viewport(0, (pane.bottom - bottom) * grid_, pane.width() * grid_, pane.height() * grid_);
   gl_->Disable(GL_SCISSOR_TEST);
   gl_->Enable(GL_DEPTH_TEST);
   gl_->ClearBufferuiv(GL_COLOR, 0, nothing);
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
-  programs_.set_up([&](const Program& program) { program.set("view_projection", frame.stage.view_projection); });
+  const Eigen::Matrix4d view_projection = crop(pane, width_, height_) * frame.stage.view_projection;
+  programs_.set_up([&](const Program& program) { program.set("view_projection", view_projection); });
   for (const Albedo& albedo : frame.albedos) {
     const Program& program = programs_.use_for(albedo, 0);
     bind_texture(*gl_, 0, albedo.texture.name());
@@ -188,14 +198,19 @@ void GeometryPass::read_band(const PixelBox& box) {
 }
 
 void GeometryPass::draw(const FrameParts& frame, const PixelWork& work) {
-  const PixelBox box = picture_box(frame);
-  if (box.empty()) return;
   const Sampler sampler(frame, grid_);
+  for (const PixelBox& pane : panes_) draw_pane(frame, sampler, pane, work);
+}
+
+void GeometryPass::draw_pane(const FrameParts& frame, const Sampler& sampler, const PixelBox& pane,
+                             const PixelWork& work) {
+  const PixelBox box = overlap(picture_box(frame), pane);
+  if (box.empty()) return;
   std::vector<GeometrySample> hits;
   for (int bottom = box.bottom; bottom < box.top; bottom += band_rows_) {
     const int rows = std::min(band_rows_, box.top - bottom);
-    draw_band(frame, bottom);
-    read_band({box.left, 0, box.right, rows});
+    draw_band(frame, pane, bottom);
+    read_band({box.left - pane.left, 0, box.right - pane.left, rows});
     for (int y = 0; y < rows; ++y)
       for (int x = 0; x < box.width(); ++x) {
         hits.clear();

@@ -26,7 +26,6 @@ struct GeometrySample {
 /// Samples lie on a regular grid in each pixel: 1, 2 x 2 for up to 4 samples, 4 x 4 above that.
 class GeometryPass {
  public:
-  /// Throws InputError when GL cannot hold the picture at that many samples.
   explicit GeometryPass(const FrameParts& frame);
 
   /// Called for every pixel that sees a body, x to the right and y down, with the samples that do.
@@ -39,11 +38,15 @@ class GeometryPass {
   struct Hit {
     GLuint body, triangle;
   };
-  void draw_band(const FrameParts& frame, int bottom) const;
+  class Sampler;
+  void draw_pane(const FrameParts& frame, const Sampler& sampler, const PixelBox& pane, const PixelWork& work);
+  void draw_band(const FrameParts& frame, const PixelBox& pane, int bottom) const;
   void read_band(const PixelBox& box);
 
   const Gl* gl_;
-  int width_, height_, grid_, band_rows_;
+  int width_, height_, grid_;
+  std::vector<PixelBox> panes_;  // of the picture, each no larger than a viewport; of most there is one
+  int band_rows_;
   BodyPrograms programs_;
   GlObject hit_storage_, albedo_storage_, depth_storage_, target_;
   std::vector<Hit> hit_;  // of the band's box, rows upwards

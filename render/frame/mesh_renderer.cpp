@@ -10,7 +10,8 @@
 namespace billow::render {
 
 struct MeshRenderer::Impl {
-  Impl(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds, int threads);
+  Impl(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds,
+       const DrawingOptions& options);
   ~Impl() { parts.context.make_current(); }
 
   const ViewPainter& painter(View view);
@@ -22,8 +23,8 @@ struct MeshRenderer::Impl {
 };
 
 MeshRenderer::Impl::Impl(const Settings& settings, const std::vector<DrawnBody>& bodies, const RunBounds& bounds,
-                         int threads)
-    : parts(settings, bodies, bounds, threads),
+                         const DrawingOptions& options)
+    : parts(settings, bodies, bounds, options),
       bodies(bodies),
       legend(draw_legend(settings.velocity_colour, parts.velocity_range, settings.height)) {
   check_gl(parts.gl(), "setting up");
@@ -36,8 +37,8 @@ const ViewPainter& MeshRenderer::Impl::painter(View view) {
 }
 
 MeshRenderer::MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds,
-                           int threads)
-    : impl_(std::make_unique<Impl>(settings, bodies, bounds, threads)) {}
+                           const DrawingOptions& options)
+    : impl_(std::make_unique<Impl>(settings, bodies, bounds, options)) {}
 
 MeshRenderer::~MeshRenderer() = default;
 
@@ -56,6 +57,8 @@ Picture MeshRenderer::draw(View view, const std::vector<sim::SurfaceState>& bodi
 }
 
 double MeshRenderer::velocity_range() const { return impl_->parts.velocity_range; }
+
+const Backend& MeshRenderer::backend() const { return impl_->parts.context.backend(); }
 
 std::string MeshRenderer::description() const { return impl_->parts.context.description(); }
 

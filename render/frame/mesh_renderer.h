@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/drawing_options.h"
 #include "render/frame/drawn_body.h"
 #include "render/image/picture.h"
 #include "render/image/settings.h"
@@ -12,13 +13,12 @@
 
 namespace billow::render {
 
-/// An OSMesa context with the run's meshes and textures in it. Not thread-safe: use it from the thread that made it.
+/// A GL context with the run's meshes and textures in it. Not thread-safe: use it from the thread that made it.
 class MeshRenderer {
  public:
-  /// `threads` rasterise (0: one per core); the first renderer of the process decides for all, and LP_NUM_THREADS in
-  /// the environment wins. The pixels do not depend on it.
-  /// Throws InputError on an image size the GL cannot do, std::runtime_error when there is no GL.
-  MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds, int threads = 0);
+  /// Throws InputError on an image size the GL cannot do, ResourceError when there is no such GL.
+  MeshRenderer(const Settings& settings, std::vector<DrawnBody> bodies, const RunBounds& bounds,
+               const DrawingOptions& options = {});
   ~MeshRenderer();
   MeshRenderer(const MeshRenderer&) = delete;
   MeshRenderer& operator=(const MeshRenderer&) = delete;
@@ -31,6 +31,8 @@ class MeshRenderer {
 
   /// The v_max [m/s] in use.
   double velocity_range() const;
+  /// The backend that was taken: never automatic.
+  const Backend& backend() const;
   /// GL vendor, renderer and version in one line.
   std::string description() const;
 

@@ -198,13 +198,14 @@ const char* const gradient_functions = R"(
 uniform vec3 top;
 uniform vec3 bottom;
 uniform float frame_height;  // [pixel]
+uniform vec2 tile_corner;    // [pixel] of the picture, where what is drawn now begins
 
-vec3 gradient() { return mix(bottom, top, smoothstep(0.0, frame_height, gl_FragCoord.y)); }
+vec3 gradient() { return mix(bottom, top, smoothstep(0.0, frame_height, tile_corner.y + gl_FragCoord.y)); }
 
 // Steps of 1/255 in a wide gradient show as bands: columns that step at different heights hide them. The pattern is the
 // same in every row, because PNG then still finds each row equal to the one above.
 vec4 dithered(vec3 colour) {
-  int column = int(gl_FragCoord.x);
+  int column = int(tile_corner.x + gl_FragCoord.x);
   int reversed = (column & 1) << 2 | (column & 2) | (column & 4) >> 2;
   return vec4(colour * (1.0 + (float(reversed) - 3.5) / 8.0 * 2.2 / 255.0), 1.0);
 }

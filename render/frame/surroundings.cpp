@@ -63,9 +63,11 @@ void Surroundings::see_from(const Stage& stage) const {
 }
 
 void Surroundings::draw_backdrop(const FrameTarget& target) const {
+  const Eigen::Vector2f corner(static_cast<float>(target.tile().left), static_cast<float>(target.tile().bottom));
   target.bind_plain();
   if (has_background_) {
     background_.use();
+    background_.set("tile_corner", corner);
     draw_screen();
   } else {
     gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -73,6 +75,7 @@ void Surroundings::draw_backdrop(const FrameTarget& target) const {
   }
   if (has_ground_) {
     ground_.use();
+    ground_.set("tile_corner", corner);
     draw_ground_square();
   }
   target.keep_backdrop();

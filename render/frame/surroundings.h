@@ -15,7 +15,8 @@ class Surroundings {
 
   /// The stage's camera has moved.
   void see_from(const Stage& stage) const;
-  /// Draws background and ground without shadows, which are the same in every frame, and keeps them as the backdrop.
+  /// Draws the tile's background and ground without shadows, which are the same in every frame, and keeps them as the
+  /// backdrop.
   void draw_backdrop(const FrameTarget& target) const;
   /// Darkens the ground of the plain picture by the shadow on the stage's patch.
   void draw_shade(const FrameTarget& target, GLuint shadow) const;

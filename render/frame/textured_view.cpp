@@ -27,23 +27,22 @@ class TexturedPainter : public ViewPainter {
   }
 
   Picture draw(FrameParts& frame) const override {
-    paint(frame);
-    return frame.target.read(frame.settings.background.none);
+    frame.shadow.update(frame.meshes);
+    return frame.draw_tiles(frame.settings.background.none, [&](const PixelBox& covered) { paint(frame, covered); });
   }
 
  private:
-  void paint(FrameParts& frame) const {
-    frame.target.recall_backdrop();
-    frame.shadow.update(frame.meshes);
+  void paint(FrameParts& frame, const PixelBox& covered) const {
+    frame.recall_backdrop();
     frame.surroundings.draw_shade(frame.target, frame.shadow.ground_texture());
-    if (frame.covered.empty()) return;
-    frame.target.bind_sampled(frame.covered);
+    if (covered.empty()) return;
+    frame.target.bind_sampled(covered);
     draw_solid(frame, lit_, AlphaMode::opaque);
     if (cut_out_) draw_cut_out(frame);
     frame.surroundings.fill_behind_ground(frame.target);
     frame.surroundings.fill_behind_bodies(frame.target);
     if (blend_) draw_blended(frame);
-    frame.target.resolve(frame.covered);
+    frame.target.resolve(covered);
   }
 
   static void set_up(const Program& program, const Stage& stage, const Shadow& shadow) {

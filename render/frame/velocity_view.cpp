@@ -48,20 +48,20 @@ class VelocityPainter : public ViewPainter {
   }
 
   Picture draw(FrameParts& frame) const override {
-    paint(frame);
-    Image image = frame.target.read(frame.settings.background.none);
+    Image image =
+        frame.draw_tiles(frame.settings.background.none, [&](const PixelBox& covered) { paint(frame, covered); });
     if (exact_) put_exact(frame, image);
     return image;
   }
 
  private:
-  void paint(FrameParts& frame) const {
+  void paint(FrameParts& frame, const PixelBox& covered) const {
     frame.target.bind_plain();
     const float grey = frame.settings.background.none ? 0.0f : backdrop;
     frame.gl().ClearColor(grey, grey, grey, frame.settings.background.none ? 0.0f : 1.0f);
     frame.gl().Clear(GL_COLOR_BUFFER_BIT);
-    if (frame.covered.empty()) return;
-    frame.target.bind_sampled(frame.covered);
+    if (covered.empty()) return;
+    frame.target.bind_sampled(covered);
     velocity_.set_up([&](const Program& program) {
       program.set("view_projection", frame.stage.view_projection);
       program.set("eye", frame.stage.camera.eye);
@@ -72,7 +72,7 @@ class VelocityPainter : public ViewPainter {
       frame.meshes[albedo.body].draw(albedo.triangles);
     }
     frame.surroundings.fill_behind_bodies(frame.target);
-    frame.target.resolve(frame.covered);
+    frame.target.resolve(covered);
   }
 
   // GL's way to sRGB and back rounds otherwise than the formula: pixels that a body fills get its colour as it is.

@@ -13,6 +13,24 @@ PixelBox joined(const PixelBox& a, const PixelBox& b) {
   return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right), std::max(a.top, b.top)};
 }
 
+PixelBox overlap(const PixelBox& a, const PixelBox& b) {
+  return {std::max(a.left, b.left), std::max(a.bottom, b.bottom), std::min(a.right, b.right), std::min(a.top, b.top)};
+}
+
+std::vector<PixelBox> split_evenly(int width, int height, int most_width, int most_height) {
+  // Sides of an even number keep the 2 x 2 blocks whole that GL shades together.
+  const auto side_of = [](int size, int most) {
+    const int parts = (size + most - 1) / most, side = (size + parts - 1) / parts;
+    return std::min(size, side + side % 2);
+  };
+  const int w = side_of(width, most_width), h = side_of(height, most_height);
+  std::vector<PixelBox> boxes;
+  for (int bottom = 0; bottom < height; bottom += h)
+    for (int left = 0; left < width; left += w)
+      boxes.push_back({left, bottom, std::min(left + w, width), std::min(bottom + h, height)});
+  return boxes;
+}
+
 PixelBox covered_pixels(const Eigen::MatrixX3f& points, const Eigen::Matrix4f& view_projection, int width, int height) {
   if (points.rows() == 0) return {};
   const Eigen::MatrixX4f clip = points.rowwise().homogeneous() * view_projection.transpose();

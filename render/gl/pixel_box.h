@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace billow::render {
 
@@ -12,10 +13,18 @@ struct PixelBox {
   int width() const { return right - left; }
   int height() const { return top - bottom; }
   bool empty() const { return width() <= 0 || height() <= 0; }
+  bool operator==(const PixelBox&) const = default;
 };
 
 /// The smallest box around both.
 PixelBox joined(const PixelBox& a, const PixelBox& b);
+
+/// What they have in common; empty where that is nothing.
+PixelBox overlap(const PixelBox& a, const PixelBox& b);
+
+/// A picture of width x height pixels as the fewest boxes of about the same size, none of more than so many pixels each
+/// way, in rows from the lower left.
+std::vector<PixelBox> split_evenly(int width, int height, int most_width, int most_height);
 
 /// The pixels of a width x height picture that the points (p x 3) [m] span, with one to spare on each side; the whole
 /// picture when a point lies behind the eye.
