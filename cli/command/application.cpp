@@ -119,16 +119,6 @@ void add_progress(CLI::App& command, ProgressStyle& style) {
       ->type_name("STYLE");
 }
 
-// What draws is known before anything runs, be it of the option or of the environment.
-template <class Parse>
-render::Backend backend_by(const Parse& parse) {
-  try {
-    return parse();
-  } catch (const std::invalid_argument& error) {
-    throw CLI::ValidationError("--backend", error.what());
-  }
-}
-
 void add_backend(CLI::App& command, Request& request) {
   command
       .add_option("--backend", request.backend,
@@ -137,10 +127,14 @@ void add_backend(CLI::App& command, Request& request) {
       ->type_name("NAME");
 }
 
+// Of the option or of the environment: what is wrong with either is found before anything runs.
 render::Backend chosen_backend(const Request& request) {
-  return backend_by([&] {
+  try {
     return request.backend.empty() ? render::backend_of_environment() : render::parse_backend(request.backend);
-  });
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(request.backend.empty() ? std::string(error.what())
+                                                       : fmt::format("--backend: {}", error.what()));
+  }
 }
 
 // What running a scene takes, drawn or not.

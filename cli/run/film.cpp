@@ -95,15 +95,22 @@ long resident_memory() {
   return file ? resident * (sysconf(_SC_PAGESIZE) / 1024) : 0;
 }
 
-// How many finished images may wait for an encoder: two for each, as far as a gibibyte holds them. A frame of the data
-// view takes 24 floats a pixel.
-std::size_t waiting_images(const render::Settings& settings, const std::vector<render::View>& views, int threads) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 30, fewest = 2;
+/// How many finished images are in memory at a time.
+struct ImageRoom {
+  std::size_t waiting;  // for an encoder
+  int encoders;         // with one each
+};
+
+// Two wait for each thread as far as a gibibyte holds them, and as many are encoded as four do; one of each always. A
+// frame of the data view takes 24 floats a pixel: the largest 6.4 GB.
+ImageRoom image_room(const render::Settings& settings, const std::vector<render::View>& views, int threads) {
+  constexpr std::size_t gibibyte = std::size_t{1} << 30;
   const bool has_data = std::find(views.begin(), views.end(), render::View::data) != views.end();
   const std::size_t pixel = has_data ? 24 * sizeof(float) : 4;
   const std::size_t image =
       pixel * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-  return std::max(fewest, std::min(static_cast<std::size_t>(2 * threads), most_bytes / image));
+  return {std::clamp<std::size_t>(gibibyte / image, 1, 2 * static_cast<std::size_t>(threads)),
+          static_cast<int>(std::clamp<std::size_t>(4 * gibibyte / image, 1, static_cast<std::size_t>(threads)))};
 }
 
 /// One run of make_film.
@@ -116,10 +123,11 @@ class Film {
         bounds_(bounds),
         plan_(plan),
         folder_(folder),
+        room_(image_room(run.scene.render, plan.views, threads)),
         threads_(threads),
         progress_(progress),
         setting_{run, folder, plan.recorded, run.scene.render.velocity_range.value_or(bounds.velocity_scale)},
-        images_(waiting_images(run.scene.render, plan.views, threads)),
+        images_(room_.waiting),
         error_([this] { snapshots_.abort(), images_.abort(); }),
         report_{.frames = FrameLog(folder.file(RunFile::record))} {}
 
@@ -127,10 +135,10 @@ class Film {
     {
       const Stopwatch watch(report_.total, CLOCK_PROCESS_CPUTIME_ID);
       std::vector<std::thread> encoders;
-      std::vector<StageCost> encode_cost(threads_);
-      std::vector<long> written(threads_, 0);
+      std::vector<StageCost> encode_cost(static_cast<std::size_t>(room_.encoders));
+      std::vector<long> written(encode_cost.size(), 0);
       std::thread simulator([this] { error_.guard([this] { simulate(); }), snapshots_.close(); });
-      for (int t = 0; t < threads_; ++t)
+      for (std::size_t t = 0; t < written.size(); ++t)
         encoders.emplace_back([&, t] { error_.guard([&] { encode(encode_cost[t], written[t]); }); });
       error_.guard([this] { draw(); });
       images_.close();
@@ -231,6 +239,7 @@ class Film {
   const render::RunBounds& bounds_;
   const FilmPlan& plan_;
   const OutputFolder& folder_;
+  ImageRoom room_;
   int threads_;
   Progress& progress_;
   RecorderSetting setting_;

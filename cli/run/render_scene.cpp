@@ -69,6 +69,17 @@ void say_end(Progress& progress, const FilmReport& report, const OutputFolder& f
                            time_taken(progress, report)));
 }
 
+// Last bits of frames that are kept may be others than what draws now would give.
+void warn_of_mixture(const nlohmann::json& before, const FilmReport& report, Warnings& warnings) {
+  const bool known = before.is_object() && before.contains("gl") && before["gl"].is_string();
+  const std::string drew = known ? before["gl"] : "";
+  if (report.images_kept > 0 && report.images_written > 0 && !drew.empty() && drew != report.gl)
+    warnings.push_back(
+        fmt::format("the frames that are kept were drawn by '{}', the others by '{}': they may differ in "
+                    "last bits; --overwrite draws all by one",
+                    drew, report.gl));
+}
+
 // Several processes may draw frames of the same states into the same folder.
 bool draws_stored(const RenderOptions& options) { return !options.from.empty(); }
 
@@ -122,7 +133,7 @@ class SceneRun {
     if (!alike) folder_.remove_frames();
     begin();
     const FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
-    finish(report);
+    finish(report, before);
     if (report.interrupted_by) return 128 + report.interrupted_by;
     if (report.divergence) throw DivergenceError(*report.divergence);
     return 0;
@@ -180,9 +191,10 @@ class SceneRun {
             backend_of(options_)};
   }
 
-  void finish(const FilmReport& report) {
+  void finish(const FilmReport& report, const nlohmann::json& before) {
     progress_.phase("writing");
-    const Warnings late = run_warnings(run_, report);
+    Warnings late = run_warnings(run_, report);
+    warn_of_mixture(before, report, late);
     say(progress_, late);
     warnings_.insert(warnings_.end(), late.begin(), late.end());
     const FolderLock lock(folder_.path());

@@ -150,7 +150,7 @@ class EglContext : public NativeContext {
 void require_platforms() {
   if (!egl().get_platform_display ||
       !has_extension(egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_EXT_platform_base"))
-    throw ResourceError(fmt::format("this EGL draws into windows alone; install {}", egl_packages));
+    throw ResourceError(fmt::format("EGL has no driver that draws without a window; install {}", egl_packages));
 }
 
 }  // namespace

@@ -109,6 +109,19 @@ TEST_F(BackendCommand, WhatWasAskedForIsNotReplaced) {
   EXPECT_THAT(driver.errors, AllOf(HasSubstr("egl:0"), HasSubstr("libgl1-mesa-dri"), HasSubstr("EGL_LOG_LEVEL=debug")));
 }
 
+// As after a run by a GPU, or another Mesa.
+TEST_F(BackendCommand, FramesOfSeveralRenderersAreWarnedOf) {
+  ASSERT_EQ(render({}, {}).status, 0);
+  EXPECT_THAT(render({}, {"--resume"}).errors, Not(HasSubstr("drawn by")));
+  nlohmann::json changed = record("film");
+  changed["gl"] = "Maker, Some GPU, OpenGL 4.6";
+  folder_.write("film/run.json", changed.dump());
+  fs::remove(folder_.path() / "film/textured/frame_0002.png");
+  const ToolResult mixed = render({}, {"--resume"});
+  EXPECT_EQ(mixed.status, 0);
+  EXPECT_THAT(mixed.errors, HasSubstr("the frames that are kept were drawn by 'Maker, Some GPU, OpenGL 4.6'"));
+}
+
 TEST_F(BackendCommand, MisspeltNamesAreUsage) {
   const ToolResult option = render({}, {"--backend", "elg"});
   EXPECT_EQ(option.status, 2);
