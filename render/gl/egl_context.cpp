@@ -3,7 +3,9 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
+#include <new>
 #include <string_view>
 
 #include "base/out_of_memory.h"
@@ -104,10 +106,22 @@ EglDisplay software_display() {
   return {egl().get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "EGL's software"};
 }
 
+// EGL says no more of a driver that does not fit into memory than of one that is missing: whether as much is there as
+// Mesa's takes is tried.
+void require_memory_for_driver() {
+  constexpr std::size_t driver_size = std::size_t{256} << 20;
+  void* const memory = mmap(nullptr, driver_size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  munmap(memory, driver_size);
+}
+
 class EglContext : public NativeContext {
  public:
   explicit EglContext(const EglDisplay& display) : display_(display.display) {
-    if (!display_ || !library_.initialize(display_, nullptr, nullptr)) fail(display.name, "cannot be initialised");
+    if (!display_ || !library_.initialize(display_, nullptr, nullptr)) {
+      require_memory_for_driver();
+      fail(display.name, "cannot be initialised");
+    }
     const char* extensions = library_.query_string(display_, EGL_EXTENSIONS);
     for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"})
       if (!has_extension(extensions, needed)) fail(display.name, fmt::format("lacks {}", needed));
