@@ -109,6 +109,19 @@ TEST_F(BackendCommand, WhatWasAskedForIsNotReplaced) {
   EXPECT_THAT(driver.errors, AllOf(HasSubstr("egl:0"), HasSubstr("libgl1-mesa-dri"), HasSubstr("EGL_LOG_LEVEL=debug")));
 }
 
+TEST_F(BackendCommand, RunsOfAStudyAreDrawnByItToo) {
+  folder_.write("study.yaml",
+                "billow_study: 1\nscene: scene.yaml\naxes: [{name: fps, key: render.fps, values: [20]}]\n"
+                "pictures: [{name: all, kind: frames, times: [0]}]\n");
+  const ToolResult missing = run({without({"libOSMesa.so.8"})}, {"study", "study.yaml", "--backend", "osmesa"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.errors, HasSubstr("install libosmesa6"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+  const ToolResult result = run({}, {"study", "study.yaml", "-o", "made", "--backend", "egl"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(record("made/runs/001-20/film")["backend"], "egl");
+}
+
 // As after a run by a GPU, or another Mesa.
 TEST_F(BackendCommand, FramesOfSeveralRenderersAreWarnedOf) {
   ASSERT_EQ(render({}, {}).status, 0);
