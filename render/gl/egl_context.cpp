@@ -15,7 +15,7 @@
 namespace billow::render {
 namespace {
 
-constexpr const char* egl_packages = "libegl1, libegl-mesa0 and libgl1-mesa-dri";
+constexpr const char* egl_packages = "libegl1 libegl-mesa0 libgl1-mesa-dri";
 constexpr EGLint most_devices = 64;
 
 struct EglLibrary {
@@ -95,15 +95,18 @@ EglDisplay display_of_number(int number) {
   return display_of(devices[static_cast<std::size_t>(number)], fmt::format("egl:{}", number));
 }
 
-// Of the device that says that it is software. Where none does, of Mesa's surfaceless platform, which the environment
-// has been told to keep to software.
-EglDisplay software_display() {
+// Of the device that says that it is software. Where none does, or it does not work, of Mesa's surfaceless platform,
+// which the environment has been told to keep to software.
+std::vector<EglDisplay> software_displays() {
+  constexpr const char* name = "EGL's software";
+  std::vector<EglDisplay> displays;
   for (const EGLDeviceEXT device : listed_devices())
     if (has_extension(egl().query_device_string(device, EGL_EXTENSIONS), "EGL_MESA_device_software"))
-      return display_of(device, "EGL's software");
-  if (!has_extension(egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless"))
-    throw ResourceError(fmt::format("EGL has no software here; install {}", egl_packages));
-  return {egl().get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "EGL's software"};
+      displays.push_back(display_of(device, name));
+  if (has_extension(egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless"))
+    displays.push_back({egl().get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), name});
+  if (displays.empty()) throw ResourceError(fmt::format("EGL has no software here; install {}", egl_packages));
+  return displays;
 }
 
 // EGL says no more of a driver that does not fit into memory than of one that is missing: whether as much is there as
@@ -161,6 +164,18 @@ class EglContext : public NativeContext {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
+// Of the first display that makes one.
+std::unique_ptr<NativeContext> make_software_context() {
+  const std::vector<EglDisplay> displays = software_displays();
+  for (std::size_t d = 0; d + 1 < displays.size(); ++d) {
+    try {
+      return std::make_unique<EglContext>(displays[d]);
+    } catch (const ResourceError&) {  // the last one says why
+    }
+  }
+  return std::make_unique<EglContext>(displays.back());
+}
+
 void require_platforms() {
   if (!egl().get_platform_display ||
       !has_extension(egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_EXT_platform_base"))
@@ -171,7 +186,8 @@ void require_platforms() {
 
 std::unique_ptr<NativeContext> make_egl_context(std::optional<int> device) {
   require_platforms();
-  return std::make_unique<EglContext>(device ? display_of_number(*device) : software_display());
+  if (!device) return make_software_context();
+  return std::make_unique<EglContext>(display_of_number(*device));
 }
 
 int egl_devices() {

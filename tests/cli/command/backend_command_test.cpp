@@ -90,7 +90,7 @@ TEST_F(BackendCommand, WithoutAnyItSaysWhatToInstallAndLeavesNothing) {
   const ToolResult result = render({without({"libOSMesa.so.8", "libEGL.so.1"})}, {});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.errors,
-              AllOf(HasSubstr("install libosmesa6"), HasSubstr("libegl1, libegl-mesa0 and libgl1-mesa-dri"),
+              AllOf(HasSubstr("install libosmesa6"), HasSubstr("install libegl1 libegl-mesa0 libgl1-mesa-dri"),
                     Not(HasSubstr("internal fault"))));
   EXPECT_FALSE(fs::exists(folder_.path() / "film/run.json"));
   EXPECT_EQ(run({without({"libOSMesa.so.8", "libEGL.so.1"})}, {"check", "scene.yaml"}).status, 0);

@@ -73,11 +73,13 @@ TEST(GlContext, ListsTheDevicesWhereOneIsMissing) {
 // What drivers are told does not reach whatever is started afterwards.
 TEST(GlContext, LeavesTheEnvironmentAsItWas) {
   unsetenv("LP_NUM_THREADS");
-  for (const char* backend : {"osmesa", "egl"}) {
-    const GlContext context(parse_backend(backend), 2);
-    for (const char* name : {"LP_NUM_THREADS", "LIBGL_ALWAYS_SOFTWARE", "EGL_LOG_LEVEL"})
-      EXPECT_EQ(std::getenv(name), nullptr) << name << " by " << backend;
-  }
+  const auto value_of = [](const char* name) { return std::string(std::getenv(name) ? std::getenv(name) : "nothing"); };
+  for (const char* backend : {"osmesa", "egl"})
+    for (const char* name : {"LP_NUM_THREADS", "LIBGL_ALWAYS_SOFTWARE", "EGL_LOG_LEVEL"}) {
+      const std::string before = value_of(name);
+      const GlContext context(parse_backend(backend), 2);
+      EXPECT_EQ(value_of(name), before) << name << " by " << backend;
+    }
 }
 
 // Mesa would take a GPU for software, or fall over its own feet.
