@@ -135,8 +135,9 @@ PixelBox picture_box(const FrameParts& frame) {
 
 }  // namespace
 
-GeometryPass::GeometryPass(const FrameParts& frame)
+GeometryPass::GeometryPass(const FrameParts& frame, Scenery scenery)
     : gl_(&frame.gl()),
+      scenery_(scenery),
       width_(frame.settings.width),
       height_(frame.settings.height),
       grid_(grid_of(frame.settings.samples)),
@@ -166,6 +167,7 @@ void GeometryPass::draw_band(const FrameParts& frame, int bottom) const {
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   programs_.set_up([&](const Program& program) { program.set("view_projection", frame.stage.view_projection); });
   for (const Albedo& albedo : frame.albedos) {
+    if (albedo.scenery && scenery_ == Scenery::left_out) continue;
     const Program& program = programs_.use_for(albedo, 0);
     bind_texture(*gl_, 0, albedo.texture.name());
     program.set("colour", albedo.colour);

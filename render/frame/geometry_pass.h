@@ -22,12 +22,15 @@ struct GeometrySample {
   Eigen::Vector3d albedo;    // linear-light RGB
 };
 
+/// What a pass makes of bodies that are scenery (drawn_body.h).
+enum class Scenery { drawn, left_out };
+
 /// GL finds which triangle each sample sees; all else is interpolated from the triangle's corners in double precision.
 /// Samples lie on a regular grid in each pixel: 1, 2 x 2 for up to 4 samples, 4 x 4 above that.
 class GeometryPass {
  public:
   /// Throws InputError when GL cannot hold the picture at that many samples.
-  explicit GeometryPass(const FrameParts& frame);
+  GeometryPass(const FrameParts& frame, Scenery scenery);
 
   /// Called for every pixel that sees a body, x to the right and y down, with the samples that do.
   using PixelWork = std::function<void(int x, int y, std::span<const GeometrySample> hits)>;
@@ -43,6 +46,7 @@ class GeometryPass {
   void read_band(const PixelBox& box);
 
   const Gl* gl_;
+  Scenery scenery_;
   int width_, height_, grid_, band_rows_;
   BodyPrograms programs_;
   GlObject hit_storage_, albedo_storage_, depth_storage_, target_;
