@@ -16,6 +16,7 @@
 #include "base/out_of_memory.h"
 #include "base/standard_streams.h"
 #include "base/suggest.h"
+#include "cli/command/build_facts.h"
 #include "cli/command/commands.h"
 #include "cli/run/interrupt.h"
 #include "cli/text/command_text.h"
@@ -75,7 +76,8 @@ struct Request {
   SheetOptions sheet;
   std::vector<std::string> overrides, metrics;
   std::string frames, caches, pixels, backend;
-  bool overwrite = false, resume = false, untrusted = false;
+  bool overwrite = false, resume = false, untrusted = false, version_as_json = false;
+  std::string_view commit;
   std::function<int()> command;
 };
 
@@ -341,7 +343,11 @@ void add_sheet(CLI::App& app, Request& r) {
 }
 
 void add_commands(CLI::App& app, Request& r) {
-  app.set_version_flag("--version", fmt::format("billow {}", version()));
+  // Options are looked at in this order: --version knows by then whether it is to be JSON.
+  CLI::Option* json = app.add_flag("--json", r.version_as_json, "With --version: what this build was made of, as JSON");
+  json->needs(app.set_version_flag("--version", [&r] {
+    return r.version_as_json ? build_facts_json(r.commit) : fmt::format("billow {}", version());
+  }));
   app.require_subcommand(1);
   // Its messages quote arguments, line ends and all.
   app.failure_message([](const CLI::App* command, const CLI::Error& error) {
@@ -416,13 +422,14 @@ int status_of_output(int status) {
 
 }  // namespace
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, std::string_view commit) {
   open_standard_streams();
   ignore_write_signals();
   tidy_up_on_signals();
   heed_children();
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
+  request.commit = commit;
   add_commands(app, request);
   if (const auto fault = unknown_command(app, argc, argv)) return report(*fault, exit_usage);
   try {

@@ -1,6 +1,8 @@
 // From command line to exit status.
 #pragma once
 
+#include <string_view>
+
 namespace billow::cli {
 
 /// What the tool's exit status means; the same for every command.
@@ -15,7 +17,7 @@ enum ExitStatus {
 };
 
 /// Parses the arguments, runs the command, turns every error into one message on stderr and an exit status
-/// (128 + signal when a signal stopped the run).
-int run(int argc, char** argv);
+/// (128 + signal when a signal stopped the run). `commit` is the one that the tool was built from, or empty.
+int run(int argc, char** argv, std::string_view commit);
 
 }  // namespace billow::cli

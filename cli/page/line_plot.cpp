@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "base/readable_number.h"
 #include "base/xml.h"
 
 namespace billow::cli {
@@ -24,13 +26,6 @@ double round_step(double span, int most) {
 }
 
 int decimals_of(double step) { return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9))); }
-
-std::string superscript(int number) {
-  static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = number < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(number))) text += digits[digit - '0'];
-  return text;
-}
 
 std::string unit_text(const std::string& unit, int exponent) {
   return exponent == 0 ? unit : fmt::format("10{} {}", superscript(exponent), unit);
@@ -55,13 +50,27 @@ std::string coordinate(double value) {
   return text == "-0" ? "0" : text;
 }
 
+std::vector<PlotPoint> finite_points(const PlotLine& line) {
+  std::vector<PlotPoint> points;
+  std::copy_if(line.points.begin(), line.points.end(), std::back_inserter(points),
+               [](const PlotPoint& point) { return std::isfinite(point.value); });
+  return points;
+}
+
 std::string polyline(const PlotLine& line, const Scale& scale) {
   std::string points;
-  for (const PlotPoint& point : line.points)
-    if (std::isfinite(point.value))
-      points += fmt::format("{}{},{}", points.empty() ? "" : " ", coordinate(scale.x(point.time)),
-                            coordinate(scale.y(point.value)));
+  for (const PlotPoint& point : finite_points(line))
+    points += fmt::format("{}{},{}", points.empty() ? "" : " ", coordinate(scale.x(point.time)),
+                          coordinate(scale.y(point.value)));
   return fmt::format("<polyline class=\"line line-{}\" points=\"{}\"/>\n", line.colour, points);
+}
+
+// Lines of no length, whose round ends are dots however the plot is stretched.
+std::string dots(const PlotLine& line, const Scale& scale) {
+  std::string path;
+  for (const PlotPoint& point : finite_points(line))
+    path += fmt::format("M{} {}h0", coordinate(scale.x(point.time)), coordinate(scale.y(point.value)));
+  return fmt::format("<path class=\"dots line-{}\" d=\"{}\"/>\n", line.colour, path);
 }
 
 int steps_of(const ValueAxis& axis) { return static_cast<int>(std::lround((axis.high - axis.low) / axis.step)); }
@@ -88,11 +97,37 @@ std::string value_labels(const ValueAxis& axis) {
   return labels;
 }
 
-std::string key(const PlotLine& line) {
+// `value` is what stands there before a script reads the line at the cursor.
+std::string key(const PlotLine& line, const std::string& value) {
   return fmt::format(
       "<span class=\"key\"><svg viewBox=\"0 0 24 10\" aria-hidden=\"true\"><path class=\"line line-{}\" "
-      "d=\"M0 5H24\"/></svg>{} <output></output></span>",
-      line.colour, xml_escape(line.name));
+      "d=\"M0 5H24\"/></svg>{} <output>{}</output></span>",
+      line.colour, xml_escape(line.name), value);
+}
+
+std::string caption(const LinePlot& plot, const ValueAxis& axis, const std::string& keys) {
+  return fmt::format("<figcaption><b>{} <span>[{}]</span></b>{}</figcaption>", xml_escape(plot.title),
+                     xml_escape(unit_text(plot.unit, axis.exponent)), keys);
+}
+
+bool has_curve(const LinePlot& plot) {
+  return std::any_of(plot.lines.begin(), plot.lines.end(),
+                     [](const PlotLine& line) { return finite_points(line).size() > 1; });
+}
+
+// No axes where nothing would be seen on them.
+std::string plot_without_curve(const LinePlot& plot, const ValueAxis& axis) {
+  std::string keys;
+  bool any = false;
+  for (const PlotLine& line : plot.lines) {
+    const std::vector<PlotPoint> points = finite_points(line);
+    any = any || !points.empty();
+    keys += key(line, points.empty()
+                          ? "none"
+                          : number_text(points.front().value / std::pow(10.0, axis.exponent), axis.decimals + 2));
+  }
+  return fmt::format("<figure class=\"plot\">\n{}\n<p class=\"empty\">{}</p>\n</figure>\n", caption(plot, axis, keys),
+                     any ? "One frame makes no curve." : "No value is finite.");
 }
 
 }  // namespace
@@ -112,8 +147,10 @@ ValueAxis value_axis(const std::vector<PlotLine>& lines) {
   // A constant gets an axis as wide as itself.
   const double margin = high - low > 1e-9 * (size / unit) ? 0.0 : size > 0.0 ? 0.5 * size / unit : 1.0;
   axis.step = round_step(high - low + 2.0 * margin, 4);
-  axis.low = axis.step * std::floor((low - margin) / axis.step + 1e-9);
-  axis.high = axis.step * std::ceil((high + margin) / axis.step - 1e-9);
+  // What reaches beyond a grid line by less than anyone sees gets no room of its own.
+  constexpr double unseen = 0.02;
+  axis.low = axis.step * std::floor((low - margin) / axis.step + unseen);
+  axis.high = axis.step * std::ceil((high + margin) / axis.step - unseen);
   axis.decimals = decimals_of(axis.step);
   return axis;
 }
@@ -134,28 +171,34 @@ std::string number_text(double value, int decimals) {
 
 std::string time_labels(const TimeTicks& ticks, double begin, double end) {
   std::string labels;
-  for (const double time : ticks.times)
-    labels += fmt::format("<span style=\"left: {}%\">{}{}</span>", coordinate(100.0 * (time - begin) / (end - begin)),
-                          number_text(time, ticks.decimals), time == ticks.times.back() ? " s" : "");
+  for (const double time : ticks.times) {
+    const std::string place = coordinate(100.0 * (time - begin) / (end - begin));
+    labels += fmt::format("<span{} style=\"left: {}%\">{}{}</span>",
+                          place == "0"     ? " class=\"first\""
+                          : place == "100" ? " class=\"last\""
+                                           : "",
+                          place, number_text(time, ticks.decimals), time == ticks.times.back() ? " s" : "");
+  }
   return labels;
 }
 
 std::string line_plot(const LinePlot& plot) {
   const ValueAxis axis = value_axis(plot.lines);
+  if (!has_curve(plot)) return plot_without_curve(plot, axis);
   std::string keys, lines;
   for (const PlotLine& line : plot.lines) {
-    keys += key(line);
+    keys += key(line, "");
     lines += polyline(line, {plot, axis});
+    if (plot.dots) lines += dots(line, {plot, axis});
   }
   return fmt::format(
       "<figure class=\"plot\" data-low=\"{}\" data-high=\"{}\" data-decimals=\"{}\" data-prefix=\"{}\">\n"
-      "<figcaption><b>{} <span>[{}]</span></b>{}</figcaption>\n"
+      "{}\n"
       "<div class=\"lane\"><div class=\"y-ticks\" aria-hidden=\"true\">{}</div><div class=\"axes seek\">"
       "<svg viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"{} over time\">\n{}{}</svg>"
       "<i class=\"cursor\"></i></div>\n<div class=\"ticks\" aria-hidden=\"true\">{}</div></div>\n</figure>\n",
-      axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", xml_escape(plot.title),
-      xml_escape(unit_text(plot.unit, axis.exponent)), keys, value_labels(axis), plot_width, plot_height,
-      xml_escape(plot.title), grid(plot, axis), lines,
+      axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", caption(plot, axis, keys), value_labels(axis),
+      plot_width, plot_height, xml_escape(plot.title), grid(plot, axis), lines,
       time_labels(time_ticks(plot.begin, plot.end), plot.begin, plot.end));
 }
 

@@ -21,6 +21,7 @@ struct LinePlot {
   double begin = 0.0, end = 0.0;  // [s] the time axis; end > begin
   std::vector<PlotLine> lines;
   bool exact = true;  // false: the lines keep extremes only, and what is read from them is marked with ≈
+  bool dots = false;  // mark the points: there was more between them, which is not known
 };
 
 /// A value axis: from low to high, both multiples of `step`, after division by 10^exponent.
@@ -47,7 +48,8 @@ std::string number_text(double value, int decimals);
 std::string time_labels(const TimeTicks& ticks, double begin, double end);
 
 /// The plot as a figure.plot of page.css. run.js reads values from it at the cursor: the points are in thousandths of
-/// the time axis, and downwards in 1/400 from data-high to data-low.
+/// the time axis, and downwards in 1/400 from data-high to data-low. Where no line has two points there are no axes:
+/// the figure says so, and which values there are.
 std::string line_plot(const LinePlot& plot);
 
 }  // namespace billow::cli

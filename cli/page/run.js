@@ -54,7 +54,7 @@
 
   // A plotted line keeps its numbers in its points: x in thousandths of the time axis, y downwards from data-high to
   // data-low.
-  const lines = [...player.querySelectorAll("figure.plot")].flatMap((plot) => {
+  const lines = [...player.querySelectorAll("figure.plot:has(.axes)")].flatMap((plot) => {
     const low = Number(plot.dataset.low), high = Number(plot.dataset.high);
     const height = plot.querySelector(".axes > svg").viewBox.baseVal.height;
     const outputs = plot.querySelectorAll("output");
@@ -92,7 +92,7 @@
       picture.src = file_of(run.views[k], frame);
       picture.alt = `${run.views[k]}, frame ${frame}`;
     });
-    clock.textContent = `${time.toFixed(run.decimals)} s, frame ${frame} of ${run.last}`;
+    clock.textContent = `${time.toFixed(run.decimals)} s, frame ${frame} of ${run.of}`;
     slider.value = frame;
     slider.setAttribute("aria-valuetext", clock.textContent);
     player.style.setProperty("--at", share_of(time));

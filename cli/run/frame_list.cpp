@@ -2,6 +2,7 @@
 #include "cli/run/frame_list.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -43,7 +44,40 @@ std::string text_of(const FrameSpan& span) {
                                  : fmt::format("{}-{}", span.first, span.last ? std::to_string(*span.last) : "");
 }
 
+// From frames[begin] on at one distance: ends after the last of these. Two make no pattern, unless they are neighbours.
+std::size_t end_of_progression(const std::vector<long>& frames, std::size_t begin) {
+  std::size_t end = begin + 1;
+  if (end == frames.size()) return end;
+  const long step = frames[end] - frames[begin];
+  while (end < frames.size() && frames[end] - frames[end - 1] == step) ++end;
+  return step > 1 && end - begin < 3 ? begin + 1 : end;
+}
+
+std::string progression_text(long first, long last, long step) {
+  if (first == last) return std::to_string(first);
+  return fmt::format("{}–{}{}", first, last, step > 1 ? fmt::format(" by {}", step) : "");
+}
+
 }  // namespace
+
+std::string frames_text(const std::vector<long>& frames) {
+  constexpr std::size_t most_pieces = 8;
+  std::vector<std::string> pieces;
+  for (std::size_t begin = 0, end; begin < frames.size(); begin = end) {
+    end = end_of_progression(frames, begin);
+    const long step = end - begin > 1 ? frames[begin + 1] - frames[begin] : 1;
+    pieces.push_back(progression_text(frames[begin], frames[end - 1], step));
+  }
+  if (pieces.size() > most_pieces) {
+    pieces.erase(pieces.begin() + most_pieces / 2, pieces.end() - 1);
+    pieces.insert(pieces.end() - 1, "…");
+  }
+  return fmt::format("{}", fmt::join(pieces, ", "));
+}
+
+std::string frames_text(const FrameRange& range) {
+  return range.listed.empty() ? progression_text(range.first, range.last, 1) : frames_text(range.listed);
+}
 
 bool FrameRange::contains(long frame) const {
   if (frame < first || frame > last) return false;

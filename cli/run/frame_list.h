@@ -26,6 +26,10 @@ struct FrameSpan {
 /// Reads pieces with commas between them. Nothing where `text` is no such list.
 std::optional<std::vector<FrameSpan>> parse_frames(const std::string& text);
 
+/// "61–70, 100–250 by 50": ascending frames as a sentence names them. Of a long list only both ends are named.
+std::string frames_text(const std::vector<long>& frames);
+std::string frames_text(const FrameRange& range);
+
 /// Those of the frames 1 to `total` that the spans mean, each once. Throws InputError when a span ends beyond them.
 FrameRange frames_in(const std::vector<FrameSpan>& spans, long total);
 

@@ -49,6 +49,7 @@ render::DrawnBody Motes::drawn() const {
   render::DrawnBody body;
   body.finish[0].colour = {0.75f, 0.85f, 0.85f};
   body.name = "motes";
+  body.scenery = true;  // they all move alike, and would be in the way of what is to be read
   body.surface.triangle.resize(faces * count, 3);
   for (int m = 0; m < count; ++m)
     body.surface.triangle.middleRows<faces>(faces * m) = octahedron_faces().array() + corners * m;

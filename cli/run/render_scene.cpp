@@ -104,15 +104,30 @@ class SceneRun {
   int run() {
     try {
       const int status = run_to_its_end();
-      if (status > 128 && record_) record_->end(SuddenEnd::interruption, "");
+      if (status > 128) end_early(SuddenEnd::interruption, "");
       return status;
     } catch (const std::exception& error) {
-      if (record_) record_->end(SuddenEnd::failure, error.what());
+      end_early(SuddenEnd::failure, error.what());
       throw;
     }
   }
 
  private:
+  // Record and page say so, as far as they can be written.
+  void end_early(SuddenEnd how, const std::string& reason) noexcept {
+    if (!record_ || !record_->end(how, reason)) return;
+    try {
+      FilmFrames frames{range_of(options_, run_.scene), {}, options_.simulate_only};
+      if (!frames.states_alone) frames.there = folder_.frames_drawn(frame_count(run_.scene));
+      write_page(describe_unfinished_run(run_, how, reason, frames, warnings_));
+    } catch (const std::exception&) {  // the disk may be what failed
+    }
+  }
+
+  void write_page(const RunPage& page) const {
+    write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
+  }
+
   int run_to_its_end() {
     say_start(progress_, run_);
     warnings_ = mesh_warnings(run_.scene);
@@ -198,19 +213,19 @@ class SceneRun {
     say(progress_, late);
     warnings_.insert(warnings_.end(), late.begin(), late.end());
     const FolderLock lock(folder_.path());
-    RunPage page = describe_run(run_, report, warnings_, progress_);
+    FilmFrames frames{range_of(options_, run_.scene), {}, options_.simulate_only};
+    if (draws_stored(options_)) frames.there = folder_.frames_drawn(frame_count(run_.scene));
+    RunPage page = describe_run(run_, report, frames, warnings_, progress_);
     nlohmann::ordered_json inherited = nlohmann::ordered_json::object();
     if (draws_stored(options_)) {
-      page.listed = folder_.frames_drawn(frame_count(run_.scene));
       inherited = made_elsewhere(earlier_record(folder_.path()));
       inherited["drawn"] = page.listed;
       if (const auto& columns = inherited["strip_columns"]; columns.is_number_integer()) page.strip_columns = columns;
       if (std::error_code error; std::filesystem::is_regular_file(folder_.file(RunFile::glb), error)) show_model(page);
-    } else {
-      if (options_.simulate_only) inherited["views"] = nlohmann::ordered_json::array(), page.views.clear();
-      page.listed = range_of(options_, run_.scene).listed;
+    } else if (options_.simulate_only) {
+      inherited["views"] = nlohmann::ordered_json::array();
     }
-    write_file_atomically(folder_.file(RunFile::page), run_page_html(page));
+    write_page(page);
     settle_names(folder_.path());
     // Last, so that its times leave nothing out.
     write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);

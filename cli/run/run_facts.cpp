@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
+
+#include "base/readable_number.h"
 #include "cli/run/output_folder.h"
 #include "cli/scene/filter_text.h"
 #include "cli/text/version.h"
@@ -13,11 +17,13 @@ namespace {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
+std::string counts_text(const sim::Structure& structure) {
+  return fmt::format("{} particles, {} springs", grouped(structure.particles()), grouped(structure.springs()));
+}
+
 std::string summary(const Run& run) {
-  const sim::Structure& structure = run.simulation.structure();
-  return fmt::format("{} particles, {} springs; {} at {:.4g} s a step; filter: {}", structure.particles(),
-                     structure.springs(), sim::name(run.scene.solver.method), run.choice.step,
-                     filter_text(run.scene, run.simulation));
+  return fmt::format("{}; {} at {:.4g} s a step; filter: {}", counts_text(run.simulation.structure()),
+                     sim::name(run.scene.solver.method), run.choice.step, filter_text(run.scene, run.simulation));
 }
 
 std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.4g} s", *limit) : "none"; }
@@ -48,52 +54,125 @@ std::string caches_text(const std::vector<CacheRecord>& caches) {
   return text;
 }
 
-std::string drawn_by(const FilmReport& report) {
-  return report.gl.empty() ? "nothing" : fmt::format("{}: {}", report.backend, report.gl);
+std::string pictures_text(const Scene& scene) {
+  return fmt::format("{} frames: {:g} s at {:g} a second, {} × {} pixels", grouped(frame_count(scene)), scene.duration,
+                     scene.render.fps, scene.render.width, scene.render.height);
 }
 
-Facts facts_of(const Run& run, const FilmReport& report, const Progress& progress) {
+// What is known before the first step.
+Facts facts_of_scene(const Run& run) {
   const Scene& scene = run.scene;
   const StepChoice& choice = run.choice;
-  const sim::Structure& structure = run.simulation.structure();
   Facts facts{{"Scene", fmt::format("{} (hash {})", scene.file.string(), scene.hash)},
-              {"Particles, springs", fmt::format("{}, {}", structure.particles(), structure.springs())},
-              {"Highest eigenvalue k0", fmt::format("{:.4g} /s²{}", choice.k0.value,
+              {"Film", pictures_text(scene)},
+              {"Structure", counts_text(run.simulation.structure())},
+              {"Highest eigenvalue k0", fmt::format("{} s⁻²{}", readable_number(choice.k0.value, 4),
                                                     choice.k0.converged ? "" : " (the search did not settle)")}};
-  if (choice.filtered) facts.emplace_back("With the filter", fmt::format("{:.4g} /s²", choice.filtered->value));
+  if (choice.filtered) facts.emplace_back("With the filter", readable_number(choice.filtered->value, 4) + " s⁻²");
   facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
                              {"Filter", filter_text(run.scene, run.simulation)},
                              {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
-                             {"Step limits", limits_text(choice)},
-                             {"Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
-                                                       scene.duration, report.facts.steps)}});
-  if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
-  if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
-  facts.insert(facts.end(), {{"Velocity colours", fmt::format("up to {:.4g} m/s", report.velocity_range)},
-                             {"Images", images_text(report)},
-                             {"Time taken", time_taken(progress, report)},
-                             {"Drawn by", drawn_by(report)},
-                             {"billow", std::string(version())}});
+                             {"Step limits", limits_text(choice)}});
   return facts;
 }
 
-// Why the run has fewer frames than it was asked for; empty where it has them all.
-std::string shortfall(const Scene& scene, const FilmReport& report) {
-  if (report.divergence) return "This run did not finish: " + *report.divergence + ".";
-  if (!report.interrupted_by) return "";
-  return fmt::format(
-      "This run was interrupted at {:.4g} s of {:.4g} s. Unless it drew a range of frames only, --resume "
-      "finishes it.",
-      report.simulated_time, scene.duration);
+void add_facts_of_film(const Run& run, const FilmReport& report, const Progress& progress, Facts& facts) {
+  facts.emplace_back("Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
+                                              run.scene.duration, grouped(report.facts.steps)));
+  if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
+  if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
+  facts.emplace_back("Velocity colours", fmt::format("up to {} m/s", readable_number(report.velocity_range, 4)));
+  facts.emplace_back("Images", images_text(report));
+  facts.emplace_back("Time taken", time_taken(progress, report));
+  if (!report.gl.empty()) facts.emplace_back("Drawn by", fmt::format("{}: {}", report.backend, report.gl));
 }
 
-std::vector<PageNote> notes_of(const Scene& scene, const FilmReport& report, const std::vector<std::string>& warnings) {
-  std::vector<PageNote> notes;
-  if (const std::string why = shortfall(scene, report); !why.empty())
-    notes.push_back({true, why + (report.series.last_frame() == 0 ? "\nNo frame was drawn."
-                                                                  : "\nThe frames until then are below.")});
-  for (const std::string& warning : warnings) notes.push_back({false, "Warning: " + warning});
-  return notes;
+// How the missing frames are had.
+std::string how_to_go_on(const Run& run) {
+  if (run.command.find(" --from ") != std::string::npos) return "The same command draws the others.";
+  const bool replaces = run.command.find("--overwrite") != std::string::npos;
+  return fmt::format("The same command with --resume{} goes on from there.",
+                     replaces ? " in place of --overwrite" : "");
+}
+
+// What a run that fell short has to show for it, as a line of its own.
+std::string what_is_there(const RunPage& page, const FilmFrames& frames) {
+  if (page.series.last_frame() == 0 && page.listed.empty())
+    return frames.states_alone ? "\nThe states until then are kept." : "\nNo frame was drawn.";
+  const std::string drawn = page.listed.empty()
+                                ? frames_text(FrameRange{page.series.first_frame(), page.series.last_frame(), {}})
+                                : frames_text(page.listed);
+  return fmt::format("\nFrames that were {}: {} of {}.", frames.states_alone ? "kept" : "drawn", drawn,
+                     grouped(page.frames));
+}
+
+// Why the run has fewer frames than it was asked for; empty where it has them all.
+std::string shortfall(const Run& run, const FilmReport& report) {
+  if (report.divergence) return "This run did not finish: " + *report.divergence + ".";
+  if (!report.interrupted_by) return "";
+  return fmt::format("This run was interrupted by SIG{} at {:.4g} s of {:.4g} s.", sigabbrev_np(report.interrupted_by),
+                     report.simulated_time, run.scene.duration);
+}
+
+// A page that shows a part on purpose says so.
+void note_part(const FilmFrames& frames, RunPage& page) {
+  const auto add = [&](const std::string& text) { page.notes.push_back({PageNote::Kind::partial, text}); };
+  const std::string total = grouped(page.frames);
+  if (frames.there) {
+    if (static_cast<long>(frames.there->size()) == page.frames) return;
+    const std::string drawn = frames.there->empty() ? "none" : frames_text(*frames.there);
+    add(fmt::format("Drawn so far, of {} frames: {}. The curves are of all.", total, drawn));
+  } else if (frames.asked.count() < page.frames) {
+    const char* const curves = page.scattered ? " The lines of the curves join them across what lies between." : "";
+    add(fmt::format("A part of the run, as asked for: {} {} of {}.{}", frames.asked.count() == 1 ? "frame" : "frames",
+                    frames_text(frames.asked), total, curves));
+  }
+}
+
+// Those of the frames asked for that the run has come to.
+std::vector<long> listed_of(const FilmFrames& frames, const RunSeries& series) {
+  if (frames.there) return *frames.there;
+  std::vector<long> listed = frames.asked.listed;
+  listed.erase(std::upper_bound(listed.begin(), listed.end(), series.last_frame()), listed.end());
+  return listed;
+}
+
+// Views that a browser can show, or why there are none.
+void set_views(const Scene& scene, const FilmFrames& frames, RunPage& page) {
+  if (frames.states_alone) {
+    page.no_views = "No pictures: the states alone were kept. 'billow render' draws any frames of them with --from.";
+    return;
+  }
+  for (const render::View view : scene.render.views) {
+    if (render::is_png(view))
+      page.views.emplace_back(render::folder(view));
+    else
+      page.no_views +=
+          fmt::format("Frames of the view '{0}' are in the folder {0}, in a format that browsers do not show.",
+                      render::folder(view));
+  }
+}
+
+RunPage page_of(const Run& run, const FilmFrames& frames) {
+  const Scene& scene = run.scene;
+  RunPage page;
+  page.title = scene.file.stem().string();
+  page.summary = summary(run);
+  set_views(scene, frames, page);
+  page.width = scene.render.width;
+  page.height = scene.render.height;
+  page.fps = scene.render.fps;
+  page.frames = frame_count(scene);
+  page.facts = facts_of_scene(run);
+  page.command = run.command;
+  page.scene = scene.effective;
+  return page;
+}
+
+void end_page(const std::vector<std::string>& warnings, RunPage& page) {
+  for (const std::string& warning : warnings)
+    page.notes.push_back({PageNote::Kind::look_closer, "Warning: " + warning});
+  page.facts.emplace_back("billow", version());
 }
 
 }  // namespace
@@ -114,28 +193,36 @@ void show_model(RunPage& page) {
   page.glb_script = word_of(RunFile::glb_script);
 }
 
-RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,
-                     const Progress& progress) {
+RunPage describe_run(const Run& run, const FilmReport& report, const FilmFrames& frames,
+                     const std::vector<std::string>& warnings, const Progress& progress) {
   const Scene& scene = run.scene;
-  RunPage page;
-  page.title = scene.file.stem().string();
-  page.summary = summary(run);
-  page.notes = notes_of(scene, report, warnings);
-  for (const render::View view : scene.render.views)
-    if (render::is_png(view)) page.views.emplace_back(render::folder(view));
-  page.width = scene.render.width;
-  page.height = scene.render.height;
-  page.fps = scene.render.fps;
+  RunPage page = page_of(run, frames);
   page.series = report.series;
+  page.listed = listed_of(frames, report.series);
+  page.scattered = !frames.there && !frames.asked.listed.empty();
+  if (const std::string why = shortfall(run, report); !why.empty())
+    page.notes.push_back({PageNote::Kind::failed,
+                          why + what_is_there(page, frames) + (report.divergence ? "" : " " + how_to_go_on(run))});
+  note_part(frames, page);
   page.strip_columns = report.strip_columns;
   page.strip_step = scene.strip ? scene.strip->step : 0.0;
   if (scene.spectrum && report.simulated_time >= scene.spectrum->at * (1.0 - 1e-9))
     page.spectrum_time = scene.spectrum->at;
   for (const CacheRecord& cache : report.caches)
     if (cache.format == CacheFormat::glb) show_model(page);
-  page.facts = facts_of(run, report, progress);
-  page.command = run.command;
-  page.scene = scene.effective;
+  add_facts_of_film(run, report, progress, page.facts);
+  end_page(warnings, page);
+  return page;
+}
+
+RunPage describe_unfinished_run(const Run& run, SuddenEnd how, const std::string& reason, const FilmFrames& frames,
+                                const std::vector<std::string>& warnings) {
+  RunPage page = page_of(run, frames);
+  page.listed = frames.there.value_or(std::vector<long>());
+  std::string text = how == SuddenEnd::failure ? "This run failed" : "This run was interrupted before its first frame";
+  text += reason.empty() ? "." : ": " + reason + ".";
+  page.notes.push_back({PageNote::Kind::failed, text + what_is_there(page, frames) + " " + how_to_go_on(run)});
+  end_page(warnings, page);
   return page;
 }
 

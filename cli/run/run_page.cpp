@@ -16,23 +16,36 @@ namespace billow::cli {
 
 namespace {
 
+// The frames that the slider goes to; 0 where there are none.
+long shown_first(const RunPage& page) {
+  return page.series.last_frame() == 0 && !page.listed.empty() ? page.listed.front() : page.series.first_frame();
+}
+long shown_last(const RunPage& page) {
+  return page.series.last_frame() == 0 && !page.listed.empty() ? page.listed.back() : page.series.last_frame();
+}
+
+bool has_one_frame(const RunPage& page) { return shown_first(page) == shown_last(page); }
+
 /// The time axis that the slider, the strip and the plots share [s]: from the first frame to the last, or to the end of
-/// the strip, whichever comes later.
+/// the strip, whichever comes later. A single frame has no extent of its own, and stands in the whole strip.
 struct TimeAxis {
   double begin = 0.0, last = 0.0, end = 0.0;
 
   explicit TimeAxis(const RunPage& page)
-      : begin(static_cast<double>(page.series.first_frame() - 1) / page.fps),
-        last(static_cast<double>(page.series.last_frame() - 1) / page.fps),
+      : begin(has_one_frame(page) && page.strip_columns > 0 ? 0.0 : time_of(shown_first(page), page)),
+        last(time_of(shown_last(page), page)),
         end(std::max(last, page.strip_columns * page.strip_step)) {
     if (end <= begin) end = begin + 1.0 / page.fps;
   }
+  static double time_of(long frame, const RunPage& page) { return static_cast<double>(frame - 1) / page.fps; }
   double share(double time) const { return (time - begin) / (end - begin); }
 };
 
-// A picture to begin with: the frame of most motion. A drape's first frame shows only its edge.
+// A picture to begin with: the frame of most motion, as a drape's first frame shows only its edge. Where nothing is
+// known of the motion, the run failed: the last that it came to.
 long start_frame(const RunPage& page) {
   const std::vector<PlotPoint> kinetic = page.series.points(Quantity::kinetic);
+  if (kinetic.empty()) return shown_last(page);
   const auto most = std::max_element(kinetic.begin(), kinetic.end(),
                                      [](const PlotPoint& a, const PlotPoint& b) { return a.value < b.value; });
   const long frame =
@@ -43,14 +56,27 @@ long start_frame(const RunPage& page) {
 
 int clock_decimals(const RunPage& page) { return page.fps > 100.0 ? 4 : 2; }
 
+std::string_view note_class(PageNote::Kind kind) {
+  switch (kind) {
+    case PageNote::Kind::partial:
+      return "";
+    case PageNote::Kind::look_closer:
+      return " warn";
+    case PageNote::Kind::failed:
+      return " bad";
+  }
+  return "";
+}
+
 std::string notes(const RunPage& page) {
   std::string html;
   for (const PageNote& note : page.notes)
-    html += fmt::format("<p class=\"note {}\">{}</p>\n", note.bad ? "bad" : "warn", xml_escape(note.text));
+    html += fmt::format("<p class=\"note{}\">{}</p>\n", note_class(note.kind), xml_escape(note.text));
   return html;
 }
 
 std::string views(const RunPage& page, long frame) {
+  if (page.views.empty()) return fmt::format("<p class=\"empty\">{}</p>\n", xml_escape(page.no_views));
   std::string html;
   for (const std::string& view : page.views)
     html += fmt::format(
@@ -71,6 +97,10 @@ std::string strip(const RunPage& page, const TimeAxis& axis) {
 }
 
 std::string plots(const RunPage& page, const TimeAxis& axis) {
+  if (page.series.last_frame() == 0)
+    return "<p class=\"empty\">Without curves: energies, momenta and stretch are written when a run ends.</p>\n";
+  constexpr std::size_t most_dots = 100;
+  const bool dots = page.scattered && page.series.points(Quantity::kinetic).size() <= most_dots;
   const auto line = [&](const char* name, const char* colour, Quantity quantity) {
     return PlotLine{name, colour, page.series.points(quantity)};
   };
@@ -80,34 +110,42 @@ std::string plots(const RunPage& page, const TimeAxis& axis) {
                     axis.begin,
                     axis.end,
                     {line("kinetic", "1", kinetic), line("potential", "2", potential), line("total", "3", total)},
-                    page.series.exact()}) +
+                    page.series.exact(),
+                    dots}) +
          line_plot({"Linear momentum",
                     "kg m/s",
                     axis.begin,
                     axis.end,
                     {line("x", "x", linear_x), line("y", "y", linear_y), line("z", "z", linear_z)},
-                    page.series.exact()}) +
+                    page.series.exact(),
+                    dots}) +
          line_plot({"Angular momentum",
                     "kg m²/s, about the origin",
                     axis.begin,
                     axis.end,
                     {line("x", "x", angular_x), line("y", "y", angular_y), line("z", "z", angular_z)},
-                    page.series.exact()}) +
+                    page.series.exact(),
+                    dots}) +
          line_plot({"Stretch",
                     "of structural springs, rest lengths",
                     axis.begin,
                     axis.end,
                     {line("largest", "1", largest_stretch), line("mean", "2", mean_stretch)},
-                    page.series.exact()});
+                    page.series.exact(),
+                    dots});
 }
 
+// What a single frame has no use for.
+std::string hidden_if(bool hidden) { return hidden ? " hidden" : ""; }
+
 std::string player(const RunPage& page) {
-  if (page.series.last_frame() == 0) return "";
+  if (shown_last(page) == 0) return "";
   const TimeAxis axis(page);
   const long start = start_frame(page);
-  const double start_time = static_cast<double>(start - 1) / page.fps;
-  const nlohmann::ordered_json data = {{"first", page.series.first_frame()},
-                                       {"last", page.series.last_frame()},
+  const double start_time = TimeAxis::time_of(start, page);
+  const nlohmann::ordered_json data = {{"first", shown_first(page)},
+                                       {"last", shown_last(page)},
+                                       {"of", page.frames},
                                        {"start", start},
                                        {"fps", page.fps},
                                        {"begin", axis.begin},
@@ -115,19 +153,22 @@ std::string player(const RunPage& page) {
                                        {"views", page.views},
                                        {"listed", page.listed},
                                        {"decimals", clock_decimals(page)}};
-  return fill_template(page_file("player.html"),
-                       {{"at", fmt::format("{:.5f}", axis.share(start_time))},
-                        {"views", views(page, start)},
-                        {"track_width", fmt::format("{:.4f}", 100.0 * axis.share(axis.last))},
-                        {"first", std::to_string(page.series.first_frame())},
-                        {"last", std::to_string(page.series.last_frame())},
-                        {"start", std::to_string(start)},
-                        {"strip", strip(page, axis)},
-                        {"ticks", time_labels(time_ticks(axis.begin, axis.end), axis.begin, axis.end)},
-                        {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start,
-                                              page.series.last_frame())},
-                        {"plots", plots(page, axis)},
-                        {"data", json_for_script(json_text(data))}});
+  const bool still = has_one_frame(page);
+  return fill_template(
+      page_file("player.html"),
+      {{"at", fmt::format("{:.5f}", axis.share(start_time))},
+       {"views", views(page, start)},
+       {"track_width", fmt::format("{:.4f}", 100.0 * axis.share(axis.last))},
+       {"first", std::to_string(shown_first(page))},
+       {"last", std::to_string(shown_last(page))},
+       {"start", std::to_string(start)},
+       {"still", hidden_if(still)},
+       {"timeless", hidden_if(still && page.strip_columns == 0)},
+       {"strip", strip(page, axis)},
+       {"ticks", time_labels(time_ticks(axis.begin, axis.end), axis.begin, axis.end)},
+       {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start, page.frames)},
+       {"plots", plots(page, axis)},
+       {"data", json_for_script(json_text(data))}});
 }
 
 std::string viewer(const RunPage& page) {
@@ -156,8 +197,8 @@ std::string facts(const RunPage& page) {
 }
 
 std::string files(const RunPage& page) {
-  std::string html =
-      "<a href=\"run.json\">run.json</a> has every number, <a href=\"frames.csv\">frames.csv</a> those of the plots";
+  std::string html = "<a href=\"run.json\">run.json</a> has every number";
+  if (page.series.last_frame() > 0) html += ", <a href=\"frames.csv\">frames.csv</a> those of the plots";
   if (page.strip_columns > 0)
     html += ", <a href=\"velocity_strip.png\">velocity_strip.png</a> every particle in its own row of pixels";
   return html + ".";

@@ -11,7 +11,8 @@ namespace billow::cli {
 
 /// Something that a reader must know first.
 struct PageNote {
-  bool bad = false;  // the run failed; otherwise only: look closer
+  enum class Kind { partial, look_closer, failed };
+  Kind kind = Kind::look_closer;
   std::string text;
 };
 
@@ -20,10 +21,13 @@ struct RunPage {
   std::string title, summary;
   std::vector<PageNote> notes;
   std::vector<std::string> views;  // of PNG frames: names, also of the frames' folders
+  std::string no_views;            // why there are none
   int width = 0, height = 0;       // [pixel] of a frame
   double fps = 0.0;                // frame f is at (f - 1) / fps
-  RunSeries series;                // knows the first frame and the last, too
-  std::vector<long> listed;        // the frames that were drawn, ascending; empty: all from the first to the last
+  long frames = 0;                 // of the whole scene
+  RunSeries series;                // of a run that failed: empty
+  std::vector<long> listed;        // the frames that were drawn, ascending; empty: all of the series'
+  bool scattered = false;          // there are frames between those of the series
   int strip_columns = 0;           // 0: no strip
   double strip_step = 0.0;         // [s] between columns
   double spectrum_time = -1.0;     // [s] of the velocity image beside the spectrum; < 0: neither

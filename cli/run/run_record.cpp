@@ -174,8 +174,8 @@ RunningRecord::RunningRecord(std::filesystem::path file, Json begun)
   mark_.emplace(file_, static_cast<off_t>(place), padded(running, room.size()), padded(failed, room.size()), room);
 }
 
-void RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
-  if (!mark_stands()) return;
+bool RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
+  if (!mark_stands()) return false;
   try {
     begun_["status"] = how == SuddenEnd::failure ? failed : interrupted;
     if (!reason.empty()) begun_["error"] = reason;
@@ -183,6 +183,7 @@ void RunningRecord::end(SuddenEnd how, const std::string& reason) noexcept {
   } catch (const std::exception&) {  // a full disk has no room for a second file
     mark(how);
   }
+  return true;
 }
 
 namespace {

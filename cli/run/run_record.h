@@ -27,9 +27,9 @@ class RunningRecord {
   /// Writes it. Throws OutputError.
   RunningRecord(std::filesystem::path file, nlohmann::ordered_json begun);
   /// Says how the run ended, and why if there is a reason, unless another process has written its record there by now,
-  /// as those may that draw frames of the same states. What cannot be written does not throw: the run has failed
-  /// already.
-  void end(SuddenEnd how, const std::string& reason) noexcept;
+  /// as those may that draw frames of the same states: then it is false. What cannot be written does not throw: the run
+  /// has failed already.
+  bool end(SuddenEnd how, const std::string& reason) noexcept;
 
  private:
   std::filesystem::path file_;

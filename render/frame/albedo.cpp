@@ -27,9 +27,9 @@ std::vector<Albedo> make_albedos(const Gl& gl, const std::vector<DrawnBody>& bod
       if (triangles.count == 0) continue;
       const Finish& finish = body.finish[m];
       const bool plain = finish.texture.pixels.empty();
-      albedos.push_back({b, triangles,
-                         make_colour_texture(gl, plain ? single_pixel() : finish.texture, wrap_for(body.surface)),
-                         finish.colour, finish.opacity, finish.alpha, finish.cutoff, finish.hole_below()});
+      albedos.push_back(
+          {b, triangles, make_colour_texture(gl, plain ? single_pixel() : finish.texture, wrap_for(body.surface)),
+           finish.colour, finish.opacity, finish.alpha, finish.cutoff, finish.hole_below(), body.scenery});
     }
   }
   return albedos;

@@ -18,6 +18,7 @@ struct Albedo {
   float opacity;           // times the texture's alpha
   AlphaMode alpha;
   float cutoff, hole_below;  // alpha: of cut_out; below which nothing is there
+  bool scenery;              // as the body's
 
   bool has_holes() const { return hole_below > 0.0f; }
 };

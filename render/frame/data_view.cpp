@@ -42,7 +42,7 @@ DataImage empty_image(int width, int height) {
 class DataPainter : public ViewPainter {
  public:
   DataPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : pass_(std::make_unique<GeometryPass>(frame)) {
+      : pass_(std::make_unique<GeometryPass>(frame, Scenery::drawn)) {
     std::vector<std::string> names;
     for (const DrawnBody& body : bodies) {
       names.push_back(body.name);

@@ -15,6 +15,7 @@ struct DrawnBody {
   sim::Surface surface;
   std::vector<Finish> finish = {1, Finish()};  // of the surface's materials, one at least
   std::string name = {};                       // by which the data view knows it
+  bool scenery = false;                        // shows the way that others make: the velocity view leaves it out
 };
 
 /// What holds for every frame of a run and is known before the first one is drawn.

@@ -149,8 +149,9 @@ class GeometryPass::Sampler {
   std::vector<std::vector<Eigen::Vector3d>> seen_;  // [m] of each body's corners, view space
 };
 
-GeometryPass::GeometryPass(const FrameParts& frame)
+GeometryPass::GeometryPass(const FrameParts& frame, Scenery scenery)
     : gl_(&frame.gl()),
+      scenery_(scenery),
       width_(frame.settings.width),
       height_(frame.settings.height),
       grid_(grid_of(frame.settings.samples)),
@@ -176,6 +177,7 @@ void GeometryPass::draw_band(const FrameParts& frame, const PixelBox& pane, int 
   const Eigen::Matrix4d view_projection = crop(pane, width_, height_) * frame.stage.view_projection;
   programs_.set_up([&](const Program& program) { program.set("view_projection", view_projection); });
   for (const Albedo& albedo : frame.albedos) {
+    if (albedo.scenery && scenery_ == Scenery::left_out) continue;
     const Program& program = programs_.use_for(albedo, 0);
     bind_texture(*gl_, 0, albedo.texture.name());
     program.set("colour", albedo.colour);

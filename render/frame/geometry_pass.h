@@ -22,11 +22,14 @@ struct GeometrySample {
   Eigen::Vector3d albedo;    // linear-light RGB
 };
 
+/// What a pass makes of bodies that are scenery (drawn_body.h).
+enum class Scenery { drawn, left_out };
+
 /// GL finds which triangle each sample sees; all else is interpolated from the triangle's corners in double precision.
 /// Samples lie on a regular grid in each pixel: 1, 2 x 2 for up to 4 samples, 4 x 4 above that.
 class GeometryPass {
  public:
-  explicit GeometryPass(const FrameParts& frame);
+  GeometryPass(const FrameParts& frame, Scenery scenery);
 
   /// Called for every pixel that sees a body, x to the right and y down, with the samples that do.
   using PixelWork = std::function<void(int x, int y, std::span<const GeometrySample> hits)>;
@@ -44,6 +47,7 @@ class GeometryPass {
   void read_band(const PixelBox& box);
 
   const Gl* gl_;
+  Scenery scenery_;
   int width_, height_, grid_;
   std::vector<PixelBox> panes_;  // of the picture, each no larger than a viewport; of most there is one
   int band_rows_;

@@ -36,7 +36,7 @@ std::uint16_t depth_code(double depth, const DepthRange& range) {
 class DepthPainter : public ViewPainter {
  public:
   explicit DepthPainter(const FrameParts& frame)
-      : pass_(std::make_unique<GeometryPass>(frame)), range_(depth_range(frame)) {}
+      : pass_(std::make_unique<GeometryPass>(frame, Scenery::drawn)), range_(depth_range(frame)) {}
 
   Picture draw(FrameParts& frame) const override {
     Image16 image{frame.settings.width, frame.settings.height, {}, {}};
@@ -57,7 +57,7 @@ class DepthPainter : public ViewPainter {
 
 class NormalPainter : public ViewPainter {
  public:
-  explicit NormalPainter(const FrameParts& frame) : pass_(std::make_unique<GeometryPass>(frame)) {}
+  explicit NormalPainter(const FrameParts& frame) : pass_(std::make_unique<GeometryPass>(frame, Scenery::drawn)) {}
 
   // c = 1/2 + 1/2 n of the mean over the samples that see a body.
   Picture draw(FrameParts& frame) const override {
@@ -90,7 +90,7 @@ Rgb8 body_colour(std::size_t b) {
 class IdPainter : public ViewPainter {
  public:
   IdPainter(const FrameParts& frame, const std::vector<DrawnBody>& bodies)
-      : pass_(std::make_unique<GeometryPass>(frame)) {
+      : pass_(std::make_unique<GeometryPass>(frame, Scenery::drawn)) {
     for (std::size_t b = 0; b < bodies.size(); ++b) colours_.push_back(body_colour(b));
   }
 

@@ -26,7 +26,7 @@ MeshRenderer::Impl::Impl(const Settings& settings, const std::vector<DrawnBody>&
                          const DrawingOptions& options)
     : parts(settings, bodies, bounds, options),
       bodies(bodies),
-      legend(draw_legend(settings.velocity_colour, parts.velocity_range, settings.height)) {
+      legend(draw_legend(settings.velocity_colour, parts.velocity_range, settings.width, settings.height)) {
   check_gl(parts.gl(), "setting up");
 }
 

@@ -44,7 +44,7 @@ class VelocityPainter : public ViewPainter {
       program.set("velocity_range", static_cast<float>(frame.velocity_range));
       program.set("shading", static_cast<float>(frame.settings.velocity_shading));
     });
-    if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame);
+    if (frame.settings.velocity_shading == 0.0) exact_ = std::make_unique<GeometryPass>(frame, Scenery::left_out);
   }
 
   Picture draw(FrameParts& frame) const override {
@@ -68,6 +68,7 @@ class VelocityPainter : public ViewPainter {
     });
     bind_texture(frame.gl(), ramp_unit, ramp_.name());
     for (const Albedo& albedo : frame.albedos) {
+      if (albedo.scenery) continue;
       velocity_.use_for(albedo, albedo_unit);
       frame.meshes[albedo.body].draw(albedo.triangles);
     }

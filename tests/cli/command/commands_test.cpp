@@ -1,4 +1,6 @@
 // The smaller commands from outside.
+#include <gmock/gmock.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/support/scene_files.h"
@@ -26,6 +28,23 @@ TEST_F(Commands, HelpAndVersionSucceed) {
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.output.rfind("billow ", 0), 0u) << version.output;
   EXPECT_EQ(run({}).status, 2);
+}
+
+TEST_F(Commands, VersionAsJsonSaysWhatTheBuildWasMadeOf) {
+  const ToolResult result = run({"--version", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json facts = Json::parse(result.output);
+  EXPECT_EQ("billow " + facts["billow"].get<std::string>() + "\n", run({"--version"}).output);
+  EXPECT_TRUE(facts["commit"].is_null() || facts["commit"].get<std::string>().size() >= 40) << facts["commit"];
+  EXPECT_THAT(facts["compiler"].get<std::string>(), testing::MatchesRegex("(gcc|clang) [0-9]+\\.[0-9]+\\.[0-9]+"));
+  for (const char* library : {"Eigen", "assimp", "libpng", "yaml-cpp", "OpenEXR"})
+    EXPECT_THAT(facts["libraries"][library].get<std::string>(), testing::MatchesRegex("[0-9]+\\.[0-9].*")) << library;
+  for (const auto& [library, version] : facts["libraries"].items()) EXPECT_FALSE(version.is_null()) << library;
+  EXPECT_THAT(facts["instruction_sets"]["compiled"], testing::Contains(facts["instruction_sets"]["chosen"]));
+  EXPECT_EQ(run({"--json", "--version"}).output, result.output);
+  const ToolResult alone = run({"--json", "doctor"});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_EQ(alone.output, "");
 }
 
 TEST_F(Commands, NamesTheOneThatWasMeant) {

@@ -37,6 +37,7 @@ RunPage small_page() {
   page.width = 96;
   page.height = 64;
   page.fps = 25.0;
+  page.frames = 11;
   page.series = series(11);
   page.strip_columns = 22;
   page.strip_step = 0.02;
@@ -125,7 +126,8 @@ TEST(RunPage, EscapesEveryTextOfARun) {
   RunPage page = small_page();
   const std::string text = "a<b>\"c\"&'d'</script>";
   page.title = page.summary = page.command = page.scene = text;
-  page.notes = {{false, text}};
+  page.notes = {{cli::PageNote::Kind::partial, text}};
+  page.no_views = text;
   page.facts = {{text, text}};
   const std::string html = cli::run_page_html(page);
   EXPECT_THAT(html, Not(HasSubstr("a<b>")));
@@ -134,7 +136,7 @@ TEST(RunPage, EscapesEveryTextOfARun) {
 
 TEST(RunPage, SaysFirstThatARunFailed) {
   RunPage page = small_page();
-  page.notes = {{true, "the simulation diverged at step 7"}};
+  page.notes = {{cli::PageNote::Kind::failed, "the simulation diverged at step 7"}};
   const std::string html = cli::run_page_html(page);
   const std::size_t note = html.find("<p class=\"note bad\">the simulation diverged at step 7</p>");
   ASSERT_NE(note, std::string::npos);
@@ -163,6 +165,52 @@ TEST(RunPage, AlignsTheStripWithARangeOfFrames) {
   EXPECT_THAT(html, HasSubstr("left: -83.3333%; width: 183.3333%"));
   EXPECT_THAT(html, HasSubstr("min=\"6\" max=\"11\""));
   EXPECT_THAT(html, HasSubstr("<div class=\"track\" style=\"width: 83.3333%\">"));
+}
+
+TEST(RunPage, CountsFramesOfTheWholeRun) {
+  RunPage page = small_page();
+  page.frames = 250;
+  page.series = {};
+  for (long f = 61; f <= 70; ++f) page.series.add(record(f, 1.0));
+  EXPECT_THAT(cli::run_page_html(page), HasSubstr("frame 61 of 250</output>"));
+}
+
+// The strip whole, what it is and where the frame stands in it; values in place of curves; nothing to play.
+TEST(RunPage, ShowsASingleFrameWithoutCurves) {
+  RunPage page = small_page();
+  page.frames = 250;
+  page.series = {};
+  page.series.add(record(11, 3.25));
+  std::string html = cli::run_page_html(page);
+  EXPECT_THAT(html, HasSubstr("One frame makes no curve."));
+  EXPECT_THAT(html, HasSubstr("kinetic <output>3.25</output>"));
+  EXPECT_THAT(html, Not(HasSubstr("<polyline")));
+  EXPECT_THAT(html, HasSubstr("<div class=\"lane scrub\" hidden>"));
+  EXPECT_THAT(html, HasSubstr("left: 0.0000%; width: 100.0000%"));
+  EXPECT_THAT(html, HasSubstr("<div class=\"lane times\" aria-hidden=\"true\">"));
+  page.strip_columns = 0;
+  EXPECT_THAT(cli::run_page_html(page), HasSubstr("<div class=\"lane times\" aria-hidden=\"true\" hidden>"));
+}
+
+TEST(RunPage, SaysWhyThereIsNoCurve) {
+  RunPage page = small_page();
+  page.series = {};
+  for (long f = 1; f <= 3; ++f) page.series.add(record(f, NAN, NAN));
+  EXPECT_THAT(cli::run_page_html(page), HasSubstr("No value is finite."));
+  page.series = {};  // of a run that failed
+  page.listed = {1, 2, 3};
+  const std::string html = cli::run_page_html(page);
+  EXPECT_THAT(html, HasSubstr("Without curves: "));
+  EXPECT_THAT(html, HasSubstr("min=\"1\" max=\"3\""));
+}
+
+TEST(RunPage, MarksFramesThatStandAlone) {
+  RunPage page = small_page();
+  EXPECT_THAT(cli::run_page_html(page), Not(HasSubstr("class=\"dots")));
+  page.scattered = true;
+  EXPECT_THAT(cli::run_page_html(page), HasSubstr("class=\"dots line-1\""));
+  page.series = series(1000);  // one beside the other
+  EXPECT_THAT(cli::run_page_html(page), Not(HasSubstr("class=\"dots")));
 }
 
 TEST(RunPage, StaysSmallForALongRun) {

@@ -40,6 +40,7 @@ TEST_F(DrawnColliders, ComeAfterTheBodiesAndBeforeTheMotes) {
   EXPECT_EQ(bodies[1].finish[0].colour, Eigen::Vector3f(1.0f, 0.0f, 0.0f));
   for (std::size_t b = 0; b < 4; ++b) EXPECT_EQ(states[b].position.rows(), bodies[b].surface.points());
   EXPECT_EQ(bodies[3].surface.points(), 5 * 6);
+  for (std::size_t b = 0; b < 4; ++b) EXPECT_EQ(bodies[b].scenery, b == 3);
 }
 
 TEST_F(DrawnColliders, LookAsTheirMeshesDo) {

@@ -235,6 +235,10 @@ TEST_F(RenderCommand, LeavesNoStripThatIsTooShort) {
   EXPECT_EQ(render({"--overwrite"}).status, 6);
   EXPECT_FALSE(fs::exists(film("velocity_strip.png")));
   EXPECT_FALSE(fs::exists(film("frames.csv")));
+  const std::string page = test::read_text(film("index.html"));
+  for (const char* part :
+       {"This run failed: ", "frame_0003.png", "The same command with --resume in place of --overwrite"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
 TEST_F(RenderCommand, IsNotDoneWithoutItsPage) {
@@ -270,7 +274,7 @@ TEST_F(RenderCommand, FinishesCleanlyWhenInterrupted) {
   const ToolResult result = render({}, 0.1, film("velocity/frame_0003.png"));
   EXPECT_EQ(result.status, 130) << result.errors;
   EXPECT_EQ(record()["status"], "interrupted");
-  EXPECT_NE(test::read_text(film("index.html")).find("This run was interrupted at "), std::string::npos);
+  EXPECT_NE(test::read_text(film("index.html")).find("This run was interrupted by SIGINT at "), std::string::npos);
   EXPECT_GE(whole_images("textured"), 3);
   EXPECT_LT(whole_images("textured"), 5000);
   EXPECT_EQ(whole_images("textured") + whole_images("velocity"), record()["images_written"]);

@@ -46,7 +46,8 @@ class RunPageInBrowser : public testing::Test {
     const test::ToolResult result = test::run_tool(arguments, folder_.path());
     ASSERT_EQ(result.status, status) << result.errors;
     for (const char* page : {"run_page_visit.html", "run_page_look.html"})
-      fs::copy_file(fs::path(BILLOW_SOURCE_DIR) / "tests/cli/run" / page, film() / page);
+      fs::copy_file(fs::path(BILLOW_SOURCE_DIR) / "tests/cli/run" / page, film() / page,
+                    fs::copy_options::overwrite_existing);
   }
 
   fs::path film() const { return folder_.path() / "film"; }
@@ -110,6 +111,36 @@ TEST_F(RunPageInBrowser, ShowsWhatADivergedRunOfOneViewLeft) {
   EXPECT_TRUE(visit.result["played"]["loaded"]);
   EXPECT_THAT(test::read_text(film() / "index.html"),
               testing::HasSubstr("<p class=\"note bad\">This run did not finish: the simulation diverged"));
+}
+
+// A part of a run counts its frames within the whole, and one frame alone shows its values without a curve.
+TEST_F(RunPageInBrowser, ShowsAPartOfARun) {
+  render(scene, {"--frames", "4,6-7"});
+  const test::Visit part = test::visit(film(), "run_page_visit.html");
+  EXPECT_THAT(part.console, IsEmpty());
+  EXPECT_EQ(part.result["scrubbed"]["clock"], "0.12 s, frame 4 of 11");
+  expect_values(part.result["scrubbed"]["values"], record()["frames"][0]);
+  EXPECT_EQ(part.result["played"]["frame"], 7);
+  EXPECT_THAT(test::read_text(film() / "index.html"), testing::HasSubstr("frames 4, 6–7 of 11."));
+
+  render(scene, {"--frames", "4", "--overwrite"});
+  const test::Visit single = test::visit(film(), "run_page_visit.html");
+  EXPECT_THAT(single.console, IsEmpty());
+  EXPECT_EQ(single.result["start"]["clock"], "0.12 s, frame 4 of 11");
+  EXPECT_EQ(single.result["start"]["cursor"], nullptr);
+  expect_values(single.result["start"]["values"], record()["frames"][0]);
+}
+
+// What a run that failed had drawn is to be seen all the same.
+TEST_F(RunPageInBrowser, ShowsWhatAFailedRunLeft) {
+  folder_.write("film/velocity/frame_0005.png/in the way", "");
+  folder_.write("film/run.json", "");
+  render(scene, {"--overwrite", "--threads", "1"}, 6);
+  const test::Visit visit = test::visit(film(), "run_page_visit.html");
+  EXPECT_THAT(visit.console, IsEmpty());
+  EXPECT_TRUE(visit.result["start"]["loaded"]) << visit.result;
+  EXPECT_EQ(visit.result["played"]["clock"], "0.12 s, frame 4 of 11");
+  EXPECT_THAT(test::read_text(film() / "index.html"), testing::HasSubstr("<p class=\"note bad\">This run failed: "));
 }
 
 // Finding no fault proves something only if faults are found.

@@ -42,6 +42,15 @@ TEST(FrameLists, AreRangesStepsAndSingleFrames) {
   EXPECT_THROW(listed("21-"), InputError);
 }
 
+TEST(FrameLists, AreNamedInWords) {
+  const auto named = [](const char* text) { return cli::frames_text(cli::frames_in(*cli::parse_frames(text), 250)); };
+  EXPECT_EQ(named("61"), "61");
+  EXPECT_EQ(named("61-70"), "61–70");
+  EXPECT_EQ(named("61-70,100-:50"), "61–70, 100–250 by 50");
+  EXPECT_EQ(named("1,3,10-12,40,50"), "1, 3, 10–12, 40, 50");  // two are no pattern
+  EXPECT_EQ(named("1,3,7,20-22,31,60,72,99,250"), "1, 3, 7, 20–22, …, 250");
+}
+
 /// Pins let go and a cloth falls on a sphere, with a fitted camera: all that a run remembers is in use.
 std::string falling_scene(double duration) {
   return fmt::format(
@@ -106,6 +115,7 @@ TEST_F(Simulate, KeepsEveryFramesStateAndDrawsNothing) {
   EXPECT_EQ(state.matrix_at("position").rows(), 64);
   EXPECT_NEAR(state.number_at("time"), 0.96, 0.01);
   EXPECT_EQ(state.number_at("moment"), 24.0 / 25.0);
+  EXPECT_THAT(test::read_text(at("sim/index.html")), HasSubstr("No pictures: the states alone were kept."));
 }
 
 TEST_F(Simulate, StatesAreDrawnAsADirectRunDrawsThem) {
@@ -116,6 +126,7 @@ TEST_F(Simulate, StatesAreDrawnAsADirectRunDrawsThem) {
   EXPECT_EQ(test::read_text(at("film/velocity/frame_0005.png")), test::read_text(at("direct/velocity/frame_0005.png")));
   EXPECT_FALSE(fs::exists(at("film/textured/frame_0004.png")));
   EXPECT_THAT(test::read_text(at("film/index.html")), HasSubstr("\"listed\":[3,5,7,20,21,22,23,24,25]"));
+  EXPECT_THAT(test::read_text(at("film/index.html")), HasSubstr("Drawn so far, of 25 frames: 3–7 by 2, 20–25."));
   ASSERT_EQ(run({"render", "--from", "sim", "-o", "film"}).status, 0);
   expect_equal("film/textured", "direct/textured");
   expect_equal("film/velocity", "direct/velocity");

@@ -316,6 +316,24 @@ TEST(MeshRenderer, LaysTheLegendOverTheVelocityViewAlone) {
   }
 }
 
+// A speck before the sheet: seen in every view but the velocities, and there not even as a hole, exact colours or not.
+TEST(MeshRenderer, LeavesSceneryOutOfTheVelocityView) {
+  const test::DrawnSheet sheet = flat_sheet({0.5f, 0.0f, 0.0f});
+  test::DrawnSheet speck = flat_sheet({0.0f, 1.0f, 0.0f});
+  speck.state.position *= 0.2f;
+  speck.state.position.col(2).array() = 0.5f;
+  speck.body.scenery = true;
+  speck.body.finish[0].colour = {0.8f, 0.1f, 0.1f};
+  for (const double shading : {0.25, 0.0}) {
+    const Settings settings = with(frontal_settings(), [&](Settings& s) { s.velocity_shading = shading; });
+    MeshRenderer renderer(settings, {sheet.body, speck.body}, sheet.bounds);
+    for (const View view : {View::textured, View::velocity, View::id}) {
+      const Image with_speck = drawn(renderer, view, {sheet.state, speck.state});
+      EXPECT_EQ(with_speck.pixels == draw_sheet(sheet, view, settings).pixels, view == View::velocity) << name(view);
+    }
+  }
+}
+
 TEST(MeshRenderer, RefusesSizesThatCannotBeDrawnAndStatesThatDoNotFit) {
   const test::DrawnSheet sheet = flat_sheet();
   const auto make = [&](int width, int height, int samples) {
