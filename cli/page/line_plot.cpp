@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/readable_number.h"
 #include "base/xml.h"
 
 namespace billow::cli {
@@ -25,15 +26,8 @@ double round_step(double span, int most) {
 
 int decimals_of(double step) { return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9))); }
 
-std::string superscript(int number) {
-  static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = number < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(number))) text += digits[digit - '0'];
-  return text;
-}
-
 std::string unit_text(const std::string& unit, int exponent) {
-  return exponent == 0 ? unit : fmt::format("10{} {}", superscript(exponent), unit);
+  return exponent == 0 ? unit : power_of_ten(exponent) + " " + unit;
 }
 
 /// From plot coordinates to the SVG's.

@@ -34,16 +34,10 @@ double legend_height(VelocityColour colour) {
 // Below this, text cannot be read.
 double legend_scale(int frame_height) { return std::max(0.7, frame_height / 720.0); }
 
-// The colour at `t` in [0, 1] along the bar of `axis`: motion along that axis alone, or speed.
-Rgb8 bar_colour(VelocityColour colour, int axis, double t) {
-  if (colour == VelocityColour::magnitude) return magnitude_rgb(t);
-  return velocity_rgb((2.0 * t - 1.0) * Eigen::Vector3d::Unit(axis), 1.0);
-}
-
 void draw_bar(cairo_t* pen, VelocityColour colour, int axis, double x, double y) {
   cairo_pattern_t* gradient = cairo_pattern_create_linear(x, 0.0, x + bar_width, 0.0);
   for (int stop = 0; stop <= 32; ++stop) {
-    const Rgb8 c = bar_colour(colour, axis, stop / 32.0);
+    const Rgb8 c = colour_along(colour, axis, stop / 32.0);
     cairo_pattern_add_color_stop_rgb(gradient, stop / 32.0, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
   }
   cairo_rectangle(pen, x, y, bar_width, bar_height);

@@ -1,0 +1,19 @@
+// Numbers as people read them, in tables, legends and along axes.
+#pragma once
+
+#include <string>
+
+namespace billow {
+
+/// "14,502", "0.00139", "1.45 × 10⁻⁵", "−3": at most `digits` significant digits, but every digit before the point;
+/// a power of ten where zeros would have to be counted, below 10⁻⁴ and from 10⁷ on. For people: programs get all
+/// digits.
+std::string readable(double value, int digits = 4);
+
+/// "1,024.50": with that many decimals, a true minus sign and no "−0".
+std::string readable_fixed(double value, int decimals);
+
+/// "10⁻⁵"
+std::string power_of_ten(int exponent);
+
+}  // namespace billow
