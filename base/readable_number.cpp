@@ -1,13 +1,16 @@
-// Numbers as people read them.
+// Rounding, grouping, exponents. Independent of the locale.
 #include "base/readable_number.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 namespace billow {
+
+namespace {
+
+constexpr double smallest_plain = 1e-4, first_power = 1e7;
 
 std::string superscript(int number) {
   static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -16,22 +19,50 @@ std::string superscript(int number) {
   return text;
 }
 
-std::string readable_number(double value, int digits) {
-  const std::string sign = std::signbit(value) && value != 0.0 ? "\u2212" : "";
-  if (value == 0.0 || !std::isfinite(value)) return sign + fmt::format("{:g}", std::abs(value));
-  const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);  // rounds before the size is judged
-  const std::size_t e = text.find('e');
-  const int exponent = std::stoi(text.substr(e + 1));
-  if (exponent >= -3 && exponent < 5)
-    return sign + fmt::format("{:.{}g}", std::abs(value), std::max(digits, exponent + 1));
-  const std::string mantissa = fmt::format("{:g}", std::stod(text.substr(0, e)));
-  return sign + (mantissa == "1" ? "" : mantissa + "·") + "10" + superscript(exponent);
+// "14502.50" -> "14,502.50"
+void group_thousands(std::string& digits) {
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  for (std::size_t at = point; at > 3; at -= 3) digits.insert(at - 3, 1, ',');
 }
 
-std::string grouped(long number) {
-  std::string text = std::to_string(std::abs(number));
-  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
-  return (number < 0 ? "\u2212" : "") + text;
+void drop_trailing_zeros(std::string& digits) {
+  if (digits.find('.') == std::string::npos) return;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+}
+
+std::string scientific(double size, int digits) {
+  const std::string text = fmt::format("{:.{}e}", size, digits - 1);
+  const std::size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e);
+  drop_trailing_zeros(mantissa);
+  const std::string power = power_of_ten(std::atoi(text.c_str() + e + 1));
+  return mantissa == "1" ? power : mantissa + " × " + power;
+}
+
+}  // namespace
+
+std::string power_of_ten(int exponent) { return "10" + superscript(exponent); }
+
+std::string readable_fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool negative = value < 0.0 && text.find_first_of("123456789") != std::string::npos;
+  group_thousands(text);
+  return negative ? "\u2212" + text : text;
+}
+
+std::string grouped(long number) { return readable_fixed(static_cast<double>(number), 0); }
+
+std::string readable(double value, int digits) {
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  const double size = std::abs(value);
+  if (size == 0.0) return "0";
+  if (size < smallest_plain || size >= first_power) return (value < 0.0 ? "\u2212" : "") + scientific(size, digits);
+  const int exponent = std::atoi(fmt::format("{:.{}e}", size, digits - 1).substr(digits > 1 ? digits + 2 : 2).c_str());
+  std::string text = fmt::format("{:.{}f}", size, std::max(0, digits - 1 - exponent));
+  drop_trailing_zeros(text);
+  group_thousands(text);
+  return value < 0.0 ? "\u2212" + text : text;
 }
 
 }  // namespace billow

@@ -1,18 +1,22 @@
-// Numbers as people read them, in pictures and on pages.
+// Numbers as people read them, in tables, legends and along axes.
 #pragma once
 
 #include <string>
 
 namespace billow {
 
-/// "10⁻⁵" has superscript(-5).
-std::string superscript(int number);
+/// "14,502", "0.00139", "1.45 × 10⁻⁵", "−3": at most `digits` significant digits, but every digit before the point;
+/// a power of ten where zeros would have to be counted, below 10⁻⁴ and from 10⁷ on. For people: programs get all
+/// digits.
+std::string readable(double value, int digits = 4);
 
-/// `value` to `digits` significant ones, with a true minus sign: "−2.31", "0.0042", "10⁶", "3.59·10⁻⁵". Powers of ten
-/// stand where plain digits would be many: from 10⁵ on, and below 10⁻³.
-std::string readable_number(double value, int digits = 3);
+/// "1,024.50": with that many decimals, a true minus sign and no "−0".
+std::string readable_fixed(double value, int decimals);
 
-/// A whole number in groups of three digits: "14,502".
+/// "14,502"
 std::string grouped(long number);
+
+/// "10⁻⁵"
+std::string power_of_ten(int exponent);
 
 }  // namespace billow

@@ -50,6 +50,8 @@ render::Sheet sheet_of(const FinishedRun& run, const std::vector<render::View>& 
   render::Sheet sheet;
   sheet.title = run.title;
   sheet.note = fmt::format("{} of {} frames, {} fps", chosen.size(), run.frames.size(), run.fps);
+  if (std::find(views.begin(), views.end(), render::View::velocity) != views.end())
+    sheet.scales.push_back(render::velocity_scale(run.velocity_colour, run.velocity_range));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (k % columns == 0) sheet.rows.emplace_back();
     add_frame(sheet.rows.back(), run, views, chosen[k]);

@@ -28,7 +28,7 @@ double round_step(double span, int most) {
 int decimals_of(double step) { return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9))); }
 
 std::string unit_text(const std::string& unit, int exponent) {
-  return exponent == 0 ? unit : fmt::format("10{} {}", superscript(exponent), unit);
+  return exponent == 0 ? unit : power_of_ten(exponent) + " " + unit;
 }
 
 /// From plot coordinates to the SVG's.

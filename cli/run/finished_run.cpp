@@ -13,6 +13,8 @@
 #include "base/regular_file.h"
 #include "base/suggest.h"
 #include "cli/run/output_folder.h"
+#include "cli/text/number_text.h"
+#include "cli/yaml/yaml_tree.h"
 
 namespace billow::cli {
 
@@ -36,12 +38,30 @@ std::string record_text(const fs::path& file) {
   return read_regular_file(file, max_record_bytes, "; this is no record of a run");
 }
 
+// What `key` of a section says, where the scene has both.
+std::optional<std::string> scene_value(const Node& scene, std::string_view section, std::string_view key) {
+  const Entry* outer = scene.find(section);
+  const Entry* inner = outer ? outer->value->find(key) : nullptr;
+  return inner ? std::optional(inner->value->text) : std::nullopt;
+}
+
+// What the scene, with its defaults, says about colours.
+void read_colours(FinishedRun& run, const std::string& effective_scene) {
+  const NodePtr scene = parse_yaml(effective_scene, "effective");
+  const std::string colour = scene_value(*scene, "render", "velocity_colour").value();
+  for (const Word<render::VelocityColour>& word : words(render::VelocityColour{}))
+    if (word.text == colour) run.velocity_colour = word.value;
+  if (const auto range = scene_value(*scene, "spectrum", "range")) run.spectrum_range = parse_number(*range).value;
+}
+
 FinishedRun run_of(const fs::path& folder, const Json& record) {
   FinishedRun run;
   run.folder = folder;
   run.title = fs::path(record.at("scene").at("file").get<std::string>()).stem().string();
   run.fps = record.at("fps").get<double>();
   run.simulated_time = record.at("solver").at("simulated_time").get<double>();
+  run.velocity_range = record.at("velocity_range").get<double>();
+  read_colours(run, record.at("scene").at("effective").get<std::string>());
   for (const Json& name : record.at("views"))
     if (const render::View view = view_named(name.get<std::string>()).value(); render::is_png(view))
       run.views.push_back(view);

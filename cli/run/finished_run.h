@@ -2,19 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "render/image/views.h"
+#include "render/image/settings.h"
 
 namespace billow::cli {
 
 struct FinishedRun {
   std::filesystem::path folder;
-  std::string title;                            // the scene file's name without its extension
-  double fps = 0.0;                             // of the scene
-  double simulated_time = 0.0;                  // [s]
+  std::string title;            // the scene file's name without its extension
+  double fps = 0.0;             // of the scene
+  double simulated_time = 0.0;  // [s]
+  double velocity_range = 0.0;  // [m/s] v_max of its colours
+  render::VelocityColour velocity_colour = render::VelocityColour::components;  // of the velocity view
+  std::optional<double> spectrum_range;         // [dB] that its spectrum's picture spans; none: it has none
   std::vector<render::View> views;              // at least one
   std::vector<std::pair<long, double>> frames;  // number and time [s] of those that it drew, ascending
 };

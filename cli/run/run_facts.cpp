@@ -66,9 +66,9 @@ Facts facts_of_scene(const Run& run) {
   Facts facts{{"Scene", fmt::format("{} (hash {})", scene.file.string(), scene.hash)},
               {"Film", pictures_text(scene)},
               {"Structure", counts_text(run.simulation.structure())},
-              {"Highest eigenvalue k0", fmt::format("{} s⁻²{}", readable_number(choice.k0.value, 4),
+              {"Highest eigenvalue k0", fmt::format("{} s⁻²{}", readable(choice.k0.value, 4),
                                                     choice.k0.converged ? "" : " (the search did not settle)")}};
-  if (choice.filtered) facts.emplace_back("With the filter", readable_number(choice.filtered->value, 4) + " s⁻²");
+  if (choice.filtered) facts.emplace_back("With the filter", readable(choice.filtered->value, 4) + " s⁻²");
   facts.insert(facts.end(), {{"Method", std::string(sim::name(scene.solver.method))},
                              {"Filter", filter_text(run.scene, run.simulation)},
                              {"Step", fmt::format("{:.4g} s ({})", choice.step, choice.bound)},
@@ -81,7 +81,7 @@ void add_facts_of_film(const Run& run, const FilmReport& report, const Progress&
                                               run.scene.duration, grouped(report.facts.steps)));
   if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
   if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
-  facts.emplace_back("Velocity colours", fmt::format("up to {} m/s", readable_number(report.velocity_range, 4)));
+  facts.emplace_back("Velocity colours", fmt::format("up to {} m/s", readable(report.velocity_range, 4)));
   facts.emplace_back("Images", images_text(report));
   facts.emplace_back("Time taken", time_taken(progress, report));
   if (!report.gl.empty()) facts.emplace_back("Drawn by", fmt::format("{}: {}", report.backend, report.gl));

@@ -15,13 +15,15 @@ namespace billow::cli {
 
 /// One value of an axis: how tables and legends call it, and what it changes in the base scene.
 struct AxisValue {
-  std::string label;
-  std::string curve;  // that plots draw it on; the label, unless several values share one
+  std::string label;  // in results and names of folders
+  std::string shown;  // in pictures: "λ = 1"
+  std::string curve;  // that plots draw it on; as shown, unless several values share one
   std::vector<Override> changes;
 };
 
 struct Axis {
-  std::string name;
+  std::string name;               // in results
+  std::string label;              // in pictures and on the page, with its unit: "λ"
   std::vector<AxisValue> values;  // at least one
 };
 

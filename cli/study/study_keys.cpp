@@ -24,7 +24,7 @@ const Key logarithmic{"log", {}, {"x", "y"}};
 const Section study{"the study",
                     {{"billow_study"}, {"title"}, {"about"}, {"scene"}, {"set"}, {"axes"}, {"measure"}, {"pictures"}}};
 
-const Section axis{"axis", {{"name"}, {"key"}, {"values"}}};
+const Section axis{"axis", {{"name"}, {"key"}, {"label"}, {"values"}}};
 const Section axis_value{"value", {{"label"}, {"curve"}, {"set"}}};
 const Section measure{"measure", {{"render"}, {"measured"}, {"repeats", {0, 100}}, {"error"}}};
 const Section error{"error", {{"until", {0.0, 1e5, true, "s"}}, {"set"}}};
@@ -33,6 +33,15 @@ const Section picture_spectra{"picture", with_common({{"columns"}})};
 const Section picture_frames{"picture", with_common({{"rows"}, times, views})};
 const Section picture_plot{"picture", with_common({{"x"}, {"y"}, {"by"}, {"x_label"}, {"y_label"}, logarithmic})};
 const Section picture_spectrum_curves{"picture", with_common({{"by"}, {"x_label"}, {"y_label"}, logarithmic})};
+
+const std::vector<PlacedSection>& sections_of_a_study() {
+  static const std::vector<PlacedSection> sections = {{"", &study},
+                                                      {"axes[]", &axis},
+                                                      {"axes[].values[]", &axis_value},
+                                                      {"measure", &measure},
+                                                      {"measure.error", &error}};
+  return sections;
+}
 
 const Section& picture(PictureKind kind) {
   switch (kind) {

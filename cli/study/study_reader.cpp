@@ -9,6 +9,7 @@
 #include "base/file_trust.h"
 #include "base/suggest.h"
 #include "cli/scene/scene_parts.h"
+#include "cli/study/axis_text.h"
 #include "cli/study/study.h"
 #include "cli/study/study_keys.h"
 #include "cli/study/study_results.h"
@@ -43,17 +44,18 @@ std::vector<Override> read_changes(const Node& node) {
 }
 
 // With `key`: a value of that key, and its own label.
-AxisValue read_keyed_value(const Node& node, const std::string& key) {
+AxisValue read_keyed_value(const Node& node, const std::string& key, const std::string& axis_label) {
   if (node.kind == Node::Kind::null) fail_at(node.where, "an axis's value is empty");
-  return {
-      to_yaml_line(node), to_yaml_line(node), {{key, to_yaml_line(node), std::make_shared<Node>(node), node.where}}};
+  const std::string label = to_yaml_line(node), shown = shown_value(axis_label, label);
+  return {label, shown, shown, {{key, label, std::make_shared<Node>(node), node.where}}};
 }
 
-AxisValue read_labelled_value(const Node& node) {
+AxisValue read_labelled_value(const Node& node, const std::string& axis_label) {
   MapReader map(node, keys::axis_value, make_map());
   AxisValue value;
   value.label = map.text("label");
-  value.curve = map.text("curve", value.label);
+  value.shown = shown_value(axis_label, value.label);
+  value.curve = map.text("curve", value.shown);
   if (const Node* set = map.find("set")) value.changes = read_changes(*set);
   return value;
 }
@@ -73,11 +75,13 @@ Axis read_axis(const Node& node) {
   if (!is_file_name(axis.name)) fail_at(map.where("name"), "an axis's name is letters, digits, _ and - only");
   if (find_column(axis.name))
     fail_at(map.where("name"), fmt::format("'{}' is a column of the results; call the axis differently", axis.name));
-  const Node* key = map.find("key");
+  const Node* key_node = map.find("key");
+  const std::string key = key_node ? read_text(*key_node, "key") : "";
+  axis.label = map.text("label", default_axis_label(axis.name, key));
   const std::vector<NodePtr>& items = read_list(map.require("values"), "values");
   if (items.empty()) fail_at(map.where("values"), "an axis needs at least one value");
   for (const NodePtr& item : items)
-    axis.values.push_back(key ? read_keyed_value(*item, read_text(*key, "key")) : read_labelled_value(*item));
+    axis.values.push_back(key_node ? read_keyed_value(*item, key, axis.label) : read_labelled_value(*item, axis.label));
   check_labels(axis, items);
   return axis;
 }
@@ -159,11 +163,13 @@ std::vector<int> read_axis_list(const Study& study, MapReader& map, std::string_
   return axes;
 }
 
-std::vector<double> read_times(MapReader& map) {
+std::vector<double> read_times(MapReader& map, bool required) {
   std::vector<double> times;
-  for (const NodePtr& item : read_list(map.require("times"), "times"))
+  const Node* node = required ? &map.require("times") : map.find("times");
+  if (!node) return times;
+  for (const NodePtr& item : read_list(*node, "times"))
     times.push_back(read_number(*item, "a time", map.key("times").range));
-  if (times.empty()) fail_at(map.where("times"), "times is empty");
+  if (times.empty() && required) fail_at(node->where, "times is empty");
   return times;
 }
 
@@ -218,7 +224,7 @@ void read_kind(const Study& study, MapReader& map, PictureSpec& picture) {
     case PictureKind::strips:
     case PictureKind::frames:
       if (const Node* rows = map.find("rows")) picture.rows = axis_index(study, *rows, "rows");
-      picture.times = read_times(map);
+      picture.times = read_times(map, picture.kind == PictureKind::frames);
       picture.views = read_views(map);
       break;
     case PictureKind::spectra:

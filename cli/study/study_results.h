@@ -15,11 +15,16 @@ namespace billow::cli {
 enum class RunStatus { missing, done, diverged, failed };
 std::string_view name(RunStatus status);
 
+/// What numbers of a run tell about.
+enum class ColumnGroup { scene, steps, ratios, cost, error };
+
 /// One number that a run may have.
 struct ResultColumn {
   std::string_view name;   // in results.csv, in `x` and `y` of a picture
   std::string_view label;  // in a legend
   std::string_view unit;
+  std::string_view quantity;  // that several columns are values of; empty: the label says it
+  ColumnGroup group;
 };
 const std::vector<ResultColumn>& result_columns();
 /// The column of that name, or null.

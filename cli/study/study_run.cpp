@@ -121,6 +121,16 @@ void render_run(const Study& study, const StudyRun& run, const Scene& scene, con
   if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));
 }
 
+// A divergence is a result.
+void or_diverged(RunResult& result, const auto& measure) {
+  try {
+    measure();
+  } catch (const DivergenceError& error) {
+    result.status = RunStatus::diverged;
+    result.message = error.what();
+  }
+}
+
 }  // namespace
 
 std::string run_hash(const Study& study, const Scene& scene) {
@@ -158,15 +168,15 @@ RunResult perform_run(const Study& study, const StudyRun& run, const std::filesy
   const StepChoice choice = steps ? simulation.choose_step() : simulation.find_limits();
   add_limits(result, scene, simulation, choice);
   progress.phase("measuring");
-  try {
+  or_diverged(result, [&] {
     if (study.measures.measured) add_measured(result, scene, simulation, choice);
     if (study.measures.repeats > 0) add_times(result, scene, simulation, choice, study.measures.repeats);
     if (study.measures.error.until > 0.0) add_error(result, study, run, simulation, choice);
+  });
+  // What came before it diverged can be looked at.
+  or_diverged(result, [&] {
     if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, backend, progress);
-  } catch (const DivergenceError& error) {
-    result.status = RunStatus::diverged;
-    result.message = error.what();
-  }
+  });
   if (interrupted_by() == 0) write_result(folder, result);
   return result;
 }

@@ -45,4 +45,9 @@ Rgb8 magnitude_rgb(double t) {
   return colour;
 }
 
+Rgb8 colour_along(VelocityColour colour, int axis, double t) {
+  if (colour == VelocityColour::magnitude) return magnitude_rgb(t);
+  return velocity_rgb((2.0 * t - 1.0) * Eigen::Vector3d::Unit(axis), 1.0);
+}
+
 }  // namespace billow::render

@@ -17,4 +17,7 @@ Rgb8 velocity_rgb(const Eigen::Vector3d& velocity, double v_max);
 /// A perceptually uniform map of t in [0, 1] (clamped), dark to light: sRGB-encoded.
 Rgb8 magnitude_rgb(double t);
 
+/// The colour at `t` in [0, 1] along a scale: of motion along that axis alone, from -v_max to v_max, or of speed.
+Rgb8 colour_along(VelocityColour colour, int axis, double t);
+
 }  // namespace billow::render

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/utf8.h"
 #include "base/xml.h"
 
 namespace billow::render {
@@ -44,6 +45,18 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
+// How much of a word, in whole characters and at least one, is no wider than `width`.
+std::size_t bytes_within(Canvas& canvas, const std::string& word, double width) {
+  std::size_t fitting = 0;
+  while (fitting < word.size()) {
+    const std::size_t next =
+        fitting + static_cast<std::size_t>(std::max(1, utf8_length(std::string_view(word).substr(fitting))));
+    if (fitting > 0 && canvas.text_width(word.substr(0, next)) > width) break;
+    fitting = next;
+  }
+  return fitting;
+}
+
 }  // namespace
 
 Canvas::Canvas(int width, int height, double scale)
@@ -67,6 +80,31 @@ double Canvas::text_width(const std::string& text) {
   cairo_text_extents_t extents;
   cairo_text_extents(pen_, one_line(text).c_str(), &extents);
   return extents.x_advance;
+}
+
+std::vector<std::string> Canvas::lines_of(const std::string& text, double width, std::size_t most) {
+  std::vector<std::string> lines;
+  const std::string words = one_line(text);
+  if (!words.empty() && text_width(words) <= width) return {words};
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    std::string word = words.substr(begin, end - begin);
+    begin = end + 1;
+    if (word.empty()) continue;
+    if (!lines.empty() && text_width(lines.back() + " " + word) <= width) {
+      lines.back() += " " + word;
+      continue;
+    }
+    for (std::size_t fitting; (fitting = bytes_within(*this, word, width)) < word.size(); word.erase(0, fitting))
+      lines.push_back(word.substr(0, fitting));
+    lines.push_back(std::move(word));
+  }
+  if (lines.size() > most) {
+    lines.resize(most);
+    const std::size_t fitting = bytes_within(*this, lines.back(), width - text_width("…"));
+    lines.back() = lines.back().substr(0, fitting) + "…";
+  }
+  return lines;
 }
 
 void Canvas::write(const std::string& text, double x, double baseline, double align, double ink) {

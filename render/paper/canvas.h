@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/image/image.h"
 
@@ -22,6 +23,9 @@ class Canvas {
   _cairo* pen() { return pen_; }
   void set_font(double size, bool bold = false);
   double text_width(const std::string& text);
+  /// `text` in lines no wider than `width`, broken at blanks, and within words that are wider alone. At most `most`
+  /// lines: what does not fit ends with an ellipsis. None of an empty text.
+  std::vector<std::string> lines_of(const std::string& text, double width, std::size_t most = 1000);
   /// In ink of grey `ink`. `align`: 0 starts at x, 1/2 is centred on it, 1 ends there.
   void write(const std::string& text, double x, double baseline, double align, double ink = 0.16);
   void fill_rectangle(double x, double y, double width, double height, double grey);

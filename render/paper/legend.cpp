@@ -51,12 +51,6 @@ double block_scale(VelocityColour colour, int width, int height) {
                    highest_share * height / block_height(colour)});
 }
 
-// The colour at `t` in [0, 1] along the bar of `axis`: motion along that axis alone, or speed.
-Rgb8 bar_colour(VelocityColour colour, int axis, double t) {
-  if (colour == VelocityColour::magnitude) return magnitude_rgb(t);
-  return velocity_rgb((2.0 * t - 1.0) * Eigen::Vector3d::Unit(axis), 1.0);
-}
-
 struct Box {
   double x, y, width, height;
 };
@@ -64,7 +58,7 @@ struct Box {
 void draw_bar(cairo_t* pen, VelocityColour colour, int axis, const Box& box) {
   cairo_pattern_t* gradient = cairo_pattern_create_linear(box.x, 0.0, box.x + box.width, 0.0);
   for (int stop = 0; stop <= 32; ++stop) {
-    const Rgb8 c = bar_colour(colour, axis, stop / 32.0);
+    const Rgb8 c = colour_along(colour, axis, stop / 32.0);
     cairo_pattern_add_color_stop_rgb(gradient, stop / 32.0, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
   }
   cairo_rectangle(pen, box.x, box.y, box.width, box.height);
@@ -118,9 +112,9 @@ struct LegendLine {
 LegendLine line_of(VelocityColour colour, double velocity_range) {
   LegendLine line;
   if (colour == VelocityColour::components)
-    line = {{"x", "y", "z"}, "±" + readable_number(velocity_range) + " m/s"};
+    line = {{"x", "y", "z"}, "±" + readable(velocity_range, 3) + " m/s"};
   else
-    line = {{"0"}, readable_number(velocity_range) + " m/s"};
+    line = {{"0"}, readable(velocity_range, 3) + " m/s"};
   Canvas measure(1, 1);
   measure.set_font(font_size);
   line.words_width = 2.0 * line_padding + measure.text_width(line.end);
@@ -173,9 +167,8 @@ Image line_legend(VelocityColour colour, double velocity_range, int width, int h
 }  // namespace
 
 std::vector<std::string> legend_numbers(VelocityColour colour, double velocity_range) {
-  if (colour == VelocityColour::magnitude)
-    return {"0", readable_number(0.5 * velocity_range), readable_number(velocity_range)};
-  return {readable_number(-velocity_range), "0", "+" + readable_number(velocity_range)};
+  if (colour == VelocityColour::magnitude) return {"0", readable(0.5 * velocity_range, 3), readable(velocity_range, 3)};
+  return {readable(-velocity_range, 3), "0", "+" + readable(velocity_range, 3)};
 }
 
 Image draw_legend(VelocityColour colour, double velocity_range, int width, int height) {

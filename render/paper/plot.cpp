@@ -1,4 +1,4 @@
-// Curves -> a gnuplot script with its data inside -> pictures.
+// Curves -> a page laid out -> a gnuplot script with its data inside -> pictures.
 #include "render/paper/plot.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/xml.h"
+#include "render/paper/plot_layout.h"
 
 namespace billow::render {
 
@@ -22,10 +23,18 @@ namespace fs = std::filesystem;
 
 constexpr double patience = 60.0;  // [s] for a plot that takes a fraction of one
 
-// Okabe and Ito's colours, which the colour-blind tell apart; with a dash and a point type of their own for print.
-constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
-constexpr std::array dashes = {"1", "2", "4", "5", "3", "1", "2"};
-constexpr std::array points = {7, 5, 9, 13, 11, 6, 4};
+// Okabe and Ito's colours and one of Tol's: under the usual kinds of colour blindness no two are nearer than 10.9 of
+// CIEDE2000.
+constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#882255"};
+static_assert(colours.size() == most_colours);
+// What a mark and its dashes are in gnuplot. The first six differ in both; two more go with colours of their own.
+constexpr std::array marks = {7, 5, 9, 13, 11, 6, 4, 8};
+constexpr std::array dashes = {"1", "2", "4", "5", "3", "(12,3,3,3)", "(2,2,8,2)", "(16,4)"};
+static_assert(marks.size() == most_colours && dashes.size() == most_colours && most_marks <= most_colours);
+constexpr std::string_view svg_faces = "DejaVu Sans,Verdana,sans-serif";
+constexpr std::string_view bold_face = "DejaVu Sans:Bold";
+constexpr const char* any_colour = "#4a5257";  // of what stands for all colours
+constexpr double pointless_marks = 8.0;        // on a curve whose points are not marked
 
 // As gnuplot reads it between double quotes. Everything but letters, digits and blanks is written by its number, so
 // that nothing is left for gnuplot to read: quotes, macros, and backquotes, which it would hand to a shell. Line breaks
@@ -45,56 +54,151 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-// Logarithms exist of positive numbers only; gnuplot would give up on a curve without one.
-bool shown(const Plot& plot, double x, double y) {
-  return std::isfinite(x) && std::isfinite(y) && (!plot.log_x || x > 0.0) && (!plot.log_y || y > 0.0);
-}
-
-bool has_points(const Plot& plot, const Curve& curve) {
-  for (std::size_t k = 0; k < curve.x.size(); ++k)
-    if (shown(plot, curve.x[k], curve.y[k])) return true;
-  return false;
+// The label of a tick, in which line breaks stay, and which gnuplot takes for a format.
+std::string tick_label(const std::string& text) {
+  const std::string percent = quoted("%").substr(1, 4);
+  std::string out;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = quoted(text.substr(begin, end - begin));
+    for (std::size_t at = 0; (at = line.find(percent, at)) != std::string::npos; at += 2 * percent.size())
+      line.insert(at, percent);
+    out += (begin > 0 ? "\\n" : "") + line.substr(1, line.size() - 2);
+    begin = end + 1;
+  }
+  return '"' + out + '"';
 }
 
 std::string data_block(const Plot& plot, const Curve& curve, std::size_t number) {
   std::string out = fmt::format("$curve{} << EOD\n", number);
   for (std::size_t k = 0; k < curve.x.size(); ++k)
-    out += shown(plot, curve.x[k], curve.y[k]) ? fmt::format("{:.17g} {:.17g}\n", curve.x[k], curve.y[k]) : "\n";
+    out += is_shown(plot, curve.x[k], curve.y[k]) ? fmt::format("{:.17g} {:.17g}\n", curve.x[k], curve.y[k]) : "\n";
   return out + "EOD\n";
 }
 
-std::string curve_command(const Plot& plot, const Curve& curve, std::size_t number) {
-  const std::size_t look = number % colours.size();
-  return fmt::format("$curve{} using 1:2 with {} lc rgb \"{}\" lw 2 dt {} pt {} ps 0.9 title {}", number,
-                     plot.points ? "linespoints" : "lines", colours[look], dashes[look], points[look],
-                     quoted(curve.name));
-}
+/// How a terminal counts sizes, and where things are on a page of that size.
+struct Page {
+  const PlotLayout& layout;
+  double font_unit;  // of a pixel
+  double mark_size;
 
-std::string settings(const Plot& plot) {
-  std::string out =
-      "set encoding utf8\n"
-      "set border 3 lc rgb \"#5a6368\"\n"
-      "set tics nomirror textcolor rgb \"#23282c\"\n"
-      "set grid lt 1 lc rgb \"#dcdfe1\" lw 1\n"
-      "set key tmargin left Left reverse horizontal width 1 spacing 1.25\n"
-      "set autoscale xfix\n";
-  // A logarithmic axis ends at whole powers of ten: offsets would add a power for nothing.
-  out += fmt::format("set offsets graph 0.02, graph 0.02, {}\n", plot.log_y ? "0, 0" : "graph 0.04, graph 0.02");
-  out += fmt::format("set key title {} left\nset xlabel {}\nset ylabel {}\n", quoted(plot.title), quoted(plot.x_label),
-                     quoted(plot.y_label));
-  if (plot.log_x) out += "set logscale x\nset format x \"%g\"\n";
-  if (plot.log_y) out += "set logscale y\nset format y \"%g\"\n";
-  return out;
-}
-
-std::string script(const Plot& plot, const std::string& terminal) {
-  std::string out = terminal + settings(plot), commands;
-  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    if (!has_points(plot, plot.curves[c])) continue;
-    out += data_block(plot, plot.curves[c], c);
-    commands += (commands.empty() ? "" : ", ") + curve_command(plot, plot.curves[c], c);
+  std::string at(double x, double y) const {
+    return fmt::format("screen {:.6f}, screen {:.6f}", x / layout.width, 1.0 - y / layout.height);
   }
-  return commands.empty() ? "" : out + "plot " + commands + "\n";
+  double across(double x) const { return x / layout.width; }
+  double up(double y) const { return 1.0 - y / layout.height; }
+  std::string font(double size, bool bold) const {
+    return fmt::format("font \"{},{:.4g}\"", bold ? bold_face : std::string_view(), size * font_unit);
+  }
+};
+
+bool coincide(const Curve& a, const Curve& b, const PlacedPanel& panel) {
+  const auto near = [](double p, double q, const PlotAxis& axis) {
+    return std::isnan(p) == std::isnan(q) && !(std::abs(p - q) > 2e-3 * (axis.high - axis.low));
+  };
+  bool same = a.x.size() == b.x.size();
+  for (std::size_t k = 0; same && k < a.x.size(); ++k)
+    same = near(a.x[k], b.x[k], panel.x) && near(a.y[k], b.y[k], panel.y);
+  return same;
+}
+
+// A curve is wider for each that is drawn over it in the same places, and without gaps then, so that it shows on either
+// side.
+int covers_of(const Plot& plot, const PlacedPanel& panel, std::size_t number) {
+  const auto self = std::find(panel.curves.begin(), panel.curves.end(), number);
+  return static_cast<int>(std::count_if(self + 1, panel.curves.end(), [&](std::size_t other) {
+    return coincide(plot.curves[number], plot.curves[other], panel);
+  }));
+}
+
+std::string curve_command(const Plot& plot, const Page& page, const PlacedPanel& panel, std::size_t number) {
+  const Look& look = page.layout.looks[number];
+  const std::size_t points = plot.curves[number].x.size();
+  const int every =
+      plot.points ? 1 : std::max(1, static_cast<int>(std::ceil(static_cast<double>(points) / pointless_marks)));
+  const int covers = covers_of(plot, panel, number);
+  // Nothing lies between things that x counts.
+  return fmt::format("$curve{} using 1:2 with {} lc rgb \"{}\" lw {} dt {} pt {} ps {:.4g} pi {} notitle", number,
+                     plot.x_names.empty() ? "linespoints" : "points", colours[look.colour], 2 + 3 * covers,
+                     covers > 0 ? dashes[0] : dashes[look.mark], marks[look.mark],
+                     page.mark_size * (1.0 + 0.5 * covers), every);
+}
+
+std::string text_command(const Page& page, const PlacedText& text) {
+  return fmt::format("set label {} at {} {}{} {} textcolor rgb \"{}\" front\n", quoted(text.text),
+                     page.at(text.x, text.y), text.align > 0.0 ? "center" : "left", text.upright ? " rotate by 90" : "",
+                     page.font(text.size, text.bold), text.quiet ? "#5a6368" : "#23282c");
+}
+
+// A mark alone has its dashes too; a colour alone is a plain line, wider so that it shows.
+std::string sample_commands(const Page& page, const Sample& sample, std::size_t number) {
+  const char* colour = sample.colour >= 0 ? colours[sample.colour] : any_colour;
+  if (sample.mark < 0) return fmt::format("$sample{} every 2 with lines lc rgb \"{}\" lw 4 notitle", number, colour);
+  return fmt::format(
+      "$sample{0} every 2 with lines lc rgb \"{1}\" lw 2 dt {2} notitle, $sample{0} every ::1::1 with points lc rgb "
+      "\"{1}\" pt "
+      "{3} "
+      "ps {4} notitle",
+      number, colour, dashes[sample.mark], marks[sample.mark], page.mark_size);
+}
+
+// The legend: a plot of samples whose axes are the page's pixels.
+std::string legend_commands(const Page& page) {
+  const PlotLayout& layout = page.layout;
+  if (layout.samples.empty()) return "";
+  std::string data, commands;
+  for (std::size_t s = 0; s < layout.samples.size(); ++s) {
+    const Sample& sample = layout.samples[s];
+    data += fmt::format("$sample{} << EOD\n{} {}\n{} {}\n{} {}\nEOD\n", s, sample.x, sample.y,
+                        sample.x + 0.5 * sample_length, sample.y, sample.x + sample_length, sample.y);
+    commands += (s ? ", " : "plot ") + sample_commands(page, sample, s);
+  }
+  return data +
+         fmt::format(
+             "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n"
+             "unset border\nunset tics\nset xrange [0:{}]\nset yrange [{}:0]\n",
+             layout.width, layout.height) +
+         commands + "\n";
+}
+
+std::string tick_list(const PlotAxis& axis, bool named) {
+  std::string out = "(";
+  for (const Tick& tick : axis.ticks)  // in lines, where its label has several
+    out += fmt::format("{}{} {:.17g} {}", out.size() > 1 ? ", " : "", named ? tick_label(tick.label) : "\"\"", tick.at,
+                       tick.label.empty() ? 1 : 0);
+  return out + ")";
+}
+
+std::string panel_commands(const Plot& plot, const Page& page, const PlacedPanel& panel) {
+  std::string out = fmt::format(
+      "set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\nset tmargin at screen {:.6f}\nset bmargin at screen "
+      "{:.6f}\nset xrange [{:.17g}:{:.17g}]\nset yrange [{:.17g}:{:.17g}]\nset xtics nomirror {} {}\nset ytics "
+      "nomirror "
+      "{}\nplot ",
+      page.across(panel.left), page.across(panel.right), page.up(panel.top), page.up(panel.bottom), panel.x.low,
+      panel.x.high, panel.y.low, panel.y.high, page.layout.upright_x ? "rotate by 90 right" : "norotate",
+      tick_list(panel.x, panel.names_x), tick_list(panel.y, panel.names_y));
+  const char* separator = "";
+  for (const std::size_t c : panel.curves) {
+    if (!has_points(plot, plot.curves[c])) continue;
+    out += separator + curve_command(plot, page, panel, c);
+    separator = ", ";
+  }
+  return out + "\n";
+}
+
+// All words stand on the page, where they have been measured; gnuplot draws axes and curves.
+std::string script(const Plot& plot, const Page& page, const std::string& terminal) {
+  std::string out = terminal + "set encoding utf8\nunset key\nset multiplot\n" + legend_commands(page) +
+                    "set border 3 lc rgb \"#5a6368\"\nset grid lt 1 lc rgb \"#dcdfe1\" lw 1\n" +
+                    fmt::format("set tics textcolor rgb \"#23282c\" {}\n", page.font(page.layout.tick_size, false));
+  if (plot.log_x) out += "set logscale x\n";
+  if (plot.log_y) out += "set logscale y\n";
+  for (std::size_t c = 0; c < plot.curves.size(); ++c)
+    if (has_points(plot, plot.curves[c])) out += data_block(plot, plot.curves[c], c);
+  for (const PlacedText& text : page.layout.texts) out += text_command(page, text);
+  for (const PlacedPanel& panel : page.layout.panels) out += panel_commands(plot, page, panel) + "unset label\n";
+  return out + "unset multiplot\n";
 }
 
 // "         line 0: unknown key option" -> "unknown key option"
@@ -118,28 +222,42 @@ std::string complaint(const ProgramResult& result) {
 }
 
 // The bytes of the picture `file`.
-std::string drawn(const Plot& plot, const std::string& terminal, const fs::path& file) {
-  const std::string text = script(plot, fmt::format("set terminal {}\n", terminal));
-  if (text.empty()) throw OutputError(fmt::format("{}: there is no point to plot", file.string()));
-  const ProgramResult result = run_program({"gnuplot", "-d"}, text, patience);
+std::string drawn(const std::string& script, const fs::path& file) {
+  const ProgramResult result = run_program({"gnuplot", "-d"}, script, patience);
   if (!result.found || result.timed_out || result.status != 0 || result.output.empty())
     throw OutputError(fmt::format("{} cannot be plotted: {}", file.string(), complaint(result)));
   return result.output;
 }
 
-// gnuplot escapes & and < alone, but these three characters must not stand in a text either.
-std::string well_formed(std::string svg) {
-  constexpr std::string_view section_end = "]]>";
-  for (std::size_t at = 0; (at = svg.find(section_end, at)) != std::string::npos;)
-    svg.replace(at, section_end.size(), "]]&gt;");
+// With `with` for every `what` that is part of a tag (gnuplot escapes every other <), or of none.
+std::string replaced(std::string svg, std::string_view what, std::string_view with, bool in_a_tag) {
+  for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos;) {
+    const std::size_t open = svg.rfind('<', at), close = svg.rfind('>', at);
+    const bool inside = open != std::string::npos && (close == std::string::npos || close < open);
+    if (inside == in_a_tag) svg.replace(at, what.size(), with);
+    at += inside == in_a_tag ? with.size() : 1;
+  }
   return svg;
+}
+
+// gnuplot escapes & and < alone, but ]]> must not stand in a text either; and it knows bold faces of other terminals
+// only.
+std::string well_formed(std::string svg) {
+  svg = replaced(std::move(svg), "]]>", "]]&gt;", false);
+  return replaced(std::move(svg), fmt::format("font-family=\"{}\"", bold_face),
+                  fmt::format("font-family=\"{}\" font-weight=\"bold\"", svg_faces), true);
+}
+
+std::string x_field(const Plot& plot, double x) {
+  return plot.x_names.empty() ? fmt::format("{}", x) : csv_field(plot.x_names[static_cast<std::size_t>(x)]);
 }
 
 std::string csv(const Plot& plot) {
   std::string out = "curve,x,y\n";
   for (const Curve& curve : plot.curves)
     for (std::size_t k = 0; k < curve.x.size(); ++k)
-      if (std::isfinite(curve.y[k])) out += fmt::format("{},{},{}\n", csv_field(curve.name), curve.x[k], curve.y[k]);
+      if (std::isfinite(curve.y[k]))
+        out += fmt::format("{},{},{}\n", csv_field(curve.name), x_field(plot, curve.x[k]), curve.y[k]);
   return out;
 }
 
@@ -154,12 +272,14 @@ fs::path with_extension(const fs::path& stem, const char* extension) {
 void write_plot(const Plot& plot, const fs::path& stem) {
   const fs::path png = with_extension(stem, ".png"), svg = with_extension(stem, ".svg");
   write_file_atomically(with_extension(stem, ".csv"), csv(plot));
-  write_file_atomically(
-      png, drawn(plot, "pngcairo noenhanced size 1280,800 font \"DejaVu Sans,15\" background rgb \"white\"", png));
-  write_file_atomically(
-      svg, well_formed(drawn(
-               plot, "svg noenhanced size 1280,800 font \"DejaVu Sans,Verdana,sans-serif,18\" background rgb \"white\"",
-               svg)));
+  const PlotLayout layout = lay_out(plot);
+  if (layout.panels.empty()) throw OutputError(fmt::format("{}: there is no point to plot", png.string()));
+  const std::string size = fmt::format("size {},{} background rgb \"white\"", layout.width, layout.height);
+  // Cairo's terminal counts fonts in points of 96 to the inch.
+  const std::string raster = fmt::format("set terminal pngcairo noenhanced font \"DejaVu Sans,12\" {}\n", size);
+  const std::string vectors = fmt::format("set terminal svg noenhanced font \"{},16\" {}\n", svg_faces, size);
+  write_file_atomically(png, drawn(script(plot, {layout, 0.75, 0.9}, raster), png));
+  write_file_atomically(svg, well_formed(drawn(script(plot, {layout, 1.0, 0.55}, vectors), svg)));
 }
 
 }  // namespace billow::render

@@ -8,7 +8,9 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/readable_number.h"
 #include "render/paper/canvas.h"
+#include "render/paper/plot_axis.h"
 
 namespace billow::render {
 
@@ -18,11 +20,11 @@ constexpr int margin = 28, gap = 12, timed_gap = 6;
 constexpr double title_size = 22.0, label_size = 16.0, small_size = 14.0;
 constexpr double ink = 0.13, quiet = 0.40, rule = 0.55;
 constexpr int title_height = 38, label_height = 28, caption_height = 24, axis_height = 44, line_height = 22;
+constexpr int label_line = 21, caption_line = 19;  // from one to the next where a text takes several
+constexpr int link_height = 18;                    // from the axis' numbers to linked panels
+constexpr double scale_width = 240.0, scale_bar = 11.0, scale_pitch = 16.0, scale_title = 24.0, scale_numbers = 26.0;
+constexpr double scale_name = 18.0, scale_gap = 48.0;
 constexpr int largest_side = 16384;
-
-bool has_caption(const SheetRow& row) {
-  return std::any_of(row.panels.begin(), row.panels.end(), [](const Panel& panel) { return !panel.caption.empty(); });
-}
 
 int panels_height(const SheetRow& row) {
   int height = 0;
@@ -66,35 +68,28 @@ std::vector<double> left_edges(const Sheet& sheet, const SheetRow& row) {
   return row.times.empty() ? one_after_another(row) : at_their_times(sheet, row);
 }
 
+bool has_names(const SheetScale& scale) {
+  return std::any_of(scale.bars.begin(), scale.bars.end(), [](const auto& bar) { return !bar.name.empty(); });
+}
+
+double width_of(const SheetScale& scale) {
+  Canvas measure(1, 1);
+  measure.set_font(small_size);
+  return std::max(measure.text_width(scale.title), scale_width + (has_names(scale) ? scale_name : 0.0));
+}
+
+int height_of(const SheetScale& scale) {
+  return static_cast<int>(scale_title + scale_pitch * static_cast<double>(scale.bars.size()) + scale_numbers);
+}
+
 double right_edge(const Sheet& sheet) {
   double right = margin + sheet.axis_width;
   for (const SheetRow& row : sheet.rows) {
     const std::vector<double> left = left_edges(sheet, row);
     for (std::size_t p = 0; p < left.size(); ++p) right = std::max(right, left[p] + row.panels[p].width);
   }
+  for (const SheetScale& scale : sheet.scales) right = std::max(right, margin + width_of(scale));
   return right;
-}
-
-// A round step of which about `wanted` fit into `span`: 1, 2 or 5 times a power of ten.
-double round_step(double span, double wanted) {
-  const double raw = span / wanted, power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double digit = raw / power;
-  return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
-}
-
-// Words of `text` in lines no wider than `width`.
-std::vector<std::string> lines_of(Canvas& canvas, const std::string& text, double width) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (!lines.empty() && canvas.text_width(lines.back() + " " + word) <= width)
-      lines.back() += " " + word;
-    else
-      lines.push_back(word);
-    begin = end + 1;
-  }
-  return lines;
 }
 
 void draw_axis(Canvas& canvas, const Sheet& sheet, double y) {
@@ -122,56 +117,131 @@ void draw_links(Canvas& canvas, const Sheet& sheet, const SheetRow& row, double 
   }
 }
 
+// Lines of a text, each aligned at `x`; returns the height of all but what a single one takes anyway.
+int draw_lines(Canvas& canvas, const std::vector<std::string>& lines, double x, double baseline, double align,
+               double grey, int pitch) {
+  for (std::size_t l = 0; l < lines.size(); ++l)
+    canvas.write(lines[l], x, baseline + static_cast<double>(pitch) * static_cast<double>(l), align, grey);
+  return pitch * std::max(0, static_cast<int>(lines.size()) - 1);
+}
+
 void draw_panel(Canvas& canvas, const Panel& panel, double x, double y) {
   canvas.place(panel.image, x, y, panel.width, panel.height, panel.smooth);
-  if (panel.caption.empty()) return;
+}
+
+// Returns the height that the captions of the row take.
+int draw_captions(Canvas& canvas, const SheetRow& row, const std::vector<double>& left, int y) {
+  int height = 0;
   canvas.set_font(small_size);
-  canvas.write(panel.caption, x + 0.5 * panel.width, y + panel.height + 17.0, 0.5, quiet);
+  for (std::size_t p = 0; p < row.panels.size(); ++p) {
+    const Panel& panel = row.panels[p];
+    if (panel.caption.empty()) continue;
+    const auto lines = canvas.lines_of(panel.caption, panel.width);
+    height = std::max(height, caption_height + draw_lines(canvas, lines, left[p] + 0.5 * panel.width,
+                                                          y + panel.height + 17.0, 0.5, quiet, caption_line));
+  }
+  return height;
 }
 
-// In front of the lines that may cross it.
-void draw_label(Canvas& canvas, const std::string& label, int y) {
+// Returns the height that the headings of the row take.
+int draw_headings(Canvas& canvas, const SheetRow& row, const std::vector<double>& left, int y) {
+  int height = 0;
   canvas.set_font(label_size, true);
-  canvas.fill_rectangle(margin, y + 3.0, canvas.text_width(label) + 4.0, label_size + 5.0, 1.0);
-  canvas.write(label, margin, y + 19.0, 0.0, ink);
+  for (std::size_t p = 0; p < row.panels.size(); ++p)
+    if (const Panel& panel = row.panels[p]; !panel.heading.empty()) {
+      const auto lines = canvas.lines_of(panel.heading, panel.width);
+      height = std::max(height, label_height + draw_lines(canvas, lines, left[p], y + 19.0, 0.0, ink, label_line));
+    }
+  return height;
 }
 
-int panels_top(const SheetRow& row, int y) { return y + (row.label.empty() ? 0 : label_height); }
+// Returns the height that it takes.
+int draw_label(Canvas& canvas, const std::string& label, double width, int y) {
+  if (label.empty()) return 0;
+  canvas.set_font(label_size, true);
+  return label_height + draw_lines(canvas, canvas.lines_of(label, width), margin, y + 19.0, 0.0, ink, label_line);
+}
 
-// Returns where the next row begins.
-int draw_row(Canvas& canvas, const Sheet& sheet, const SheetRow& row, int y) {
-  if (!row.label.empty()) draw_label(canvas, row.label, y);
-  y = panels_top(row, y);
+// Returns where the next row begins. Nothing is written across the lines to a row that is linked to the axis at `axis`.
+int draw_row(Canvas& canvas, const Sheet& sheet, const SheetRow& row, double width, std::optional<int> axis, int y) {
+  const bool linked = axis && !row.times.empty();
+  y += linked ? link_height : draw_label(canvas, row.label, width, y);
+  if (linked) draw_links(canvas, sheet, row, *axis, y);
   const std::vector<double> left = left_edges(sheet, row);
+  y += draw_headings(canvas, row, left, y);
   for (std::size_t p = 0; p < row.panels.size(); ++p) draw_panel(canvas, row.panels[p], left[p], y);
-  y += panels_height(row) + (has_caption(row) ? caption_height : 0);
+  const int captions = draw_captions(canvas, row, left, y);
+  y += panels_height(row) + captions;
+  if (linked) y += draw_label(canvas, row.label, width, y);
   if (row.axis_below) draw_axis(canvas, sheet, y), y += axis_height;
   return y + gap;
 }
 
-int draw_rows(Canvas& canvas, const Sheet& sheet, int y) {
+int draw_rows(Canvas& canvas, const Sheet& sheet, double width, int y) {
   std::optional<int> axis;
   for (const SheetRow& row : sheet.rows) {
-    if (axis && !row.times.empty()) draw_links(canvas, sheet, row, *axis, panels_top(row, y));
-    y = draw_row(canvas, sheet, row, y);
+    y = draw_row(canvas, sheet, row, width, axis, y);
     if (row.axis_below) axis = y - gap - axis_height;
   }
   return y;
 }
 
-int draw_columns(Canvas& canvas, const Sheet& sheet, int y) {
-  if (sheet.columns.empty()) return y;
-  const std::vector<double> left = left_edges(sheet, sheet.rows.front());
-  canvas.set_font(label_size, true);
-  for (std::size_t c = 0; c < std::min(sheet.columns.size(), left.size()); ++c)
-    canvas.write(sheet.columns[c], left[c], y + 19.0, 0.0, ink);
-  return y + label_height;
+// As an image of one row: `place` stretches it.
+Image bar_image(const std::vector<Rgb8>& colours) {
+  Image image(static_cast<int>(colours.size()), 1);
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * k + c] = colours[k][c];
+  return image;
+}
+
+// What motion along one axis, or a speed, looks like.
+std::vector<Rgb8> scale_colours(VelocityColour colour, int axis) {
+  std::vector<Rgb8> colours;
+  for (int k = 0; k < 256; ++k) colours.push_back(colour_along(colour, axis, k / 255.0));
+  return colours;
+}
+
+void draw_scale(Canvas& canvas, const SheetScale& scale, double x, double y) {
+  canvas.set_font(small_size);
+  canvas.write(scale.title, x, y + 15.0, 0.0, ink);
+  const double left = x + (has_names(scale) ? scale_name : 0.0);
+  double top = y + scale_title;
+  for (const SheetScale::Bar& bar : scale.bars) {
+    canvas.write(bar.name, x, top + scale_bar - 1.0, 0.0, ink);
+    canvas.place(bar_image(bar.colours), left, top, scale_width, scale_bar, true);
+    top += scale_pitch;
+  }
+  top += scale_bar - scale_pitch;
+  for (const double at : {0.0, 0.5, 1.0}) {
+    canvas.fill_rectangle(left + at * (scale_width - 1.0), top + 1.0, 1.0, 4.0, quiet);
+    canvas.write(at == 0.0   ? scale.low
+                 : at == 1.0 ? scale.high
+                             : scale.middle,
+                 left + at * scale_width, top + 20.0, at, quiet);
+  }
+}
+
+// Side by side as far as the sheet is wide.
+int draw_scales(Canvas& canvas, const Sheet& sheet, double width, int y) {
+  double x = margin;
+  int height = 0;
+  for (const SheetScale& scale : sheet.scales) {
+    if (x > margin && x + width_of(scale) > margin + width) {
+      x = margin;
+      y += height;
+      height = 0;
+    }
+    draw_scale(canvas, scale, x, y);
+    x += width_of(scale) + scale_gap;
+    height = std::max(height, height_of(scale) + 8);
+  }
+  return y + height;
 }
 
 int draw_text(Canvas& canvas, const std::string& text, double size, bool bold, double grey, int height, double width,
               int y) {
   canvas.set_font(size, bold);
-  for (const std::string& line : lines_of(canvas, text, width)) {
+  for (const std::string& line : canvas.lines_of(text, width)) {
     canvas.write(line, margin, y + size, 0.0, grey);
     y += height;
   }
@@ -181,8 +251,8 @@ int draw_text(Canvas& canvas, const std::string& text, double size, bool bold, d
 // Draws everything and returns the height that it took.
 int draw_all(Canvas& canvas, const Sheet& sheet, double width) {
   int y = draw_text(canvas, sheet.title, title_size, true, ink, title_height, width, margin);
-  y = draw_columns(canvas, sheet, y);
-  y = draw_rows(canvas, sheet, y);
+  y = draw_rows(canvas, sheet, width, y);
+  y = draw_scales(canvas, sheet, width, y);
   return draw_text(canvas, sheet.note, small_size, false, quiet, line_height, width, y) + margin - gap;
 }
 
@@ -211,6 +281,28 @@ void check(const Sheet& sheet) {
 }
 
 }  // namespace
+
+SheetScale velocity_scale(VelocityColour colour, double velocity_range) {
+  const std::string end = readable(velocity_range, 3);
+  if (colour == VelocityColour::magnitude)
+    return {"speed [m/s]", {{"", scale_colours(colour, 0)}}, "0", readable(0.5 * velocity_range, 3), end};
+  SheetScale scale{"velocity along each axis [m/s]", {}, "\u2212" + end, "0", "+" + end};
+  for (int axis = 0; axis < 3; ++axis) scale.bars.push_back({std::string(1, "xyz"[axis]), scale_colours(colour, axis)});
+  return scale;
+}
+
+SheetScale power_scale(double range) {
+  std::vector<Rgb8> greys;
+  for (int grey = 0; grey < 256; ++grey) {
+    const auto level = static_cast<std::uint8_t>(grey);
+    greys.push_back({level, level, level});
+  }
+  return {"power relative to the strongest [dB]",
+          {{"", greys}},
+          "\u2212" + readable(range, 3),
+          "\u2212" + readable(0.5 * range, 3),
+          "0"};
+}
 
 Image draw_sheet(const Sheet& sheet) {
   check(sheet);

@@ -8,91 +8,19 @@
 #include "cli/scene/scene_keys.h"
 #include "cli/text/number_text.h"
 #include "tests/support/scene_files.h"
+#include "tests/support/schema.h"
 
 namespace billow {
 namespace {
 
 using Json = nlohmann::json;
 
-Json schema() {
-  std::ifstream stream(BILLOW_SOURCE_DIR "/scenes/scene.schema.json");
-  return Json::parse(stream);
-}
-
-// The alternative of `node` that is a map of keys, or `node` itself.
-const Json& as_object(const Json& node) {
-  for (const Json& alternative : node.value("anyOf", Json::array()))
-    if (alternative.contains("properties")) return *std::find(node["anyOf"].begin(), node["anyOf"].end(), alternative);
-  return node;
-}
-
-// The schema of a section by its path, such as "bodies[].cloth".
-const Json& at(const Json& root, std::string path) {
-  const Json* node = &root;
-  while (!path.empty()) {
-    const std::size_t end = std::min(path.find('.'), path.size());
-    std::string key = path.substr(0, end);
-    path.erase(0, end + 1);
-    const bool entries = key.ends_with("[]");
-    if (entries) key.erase(key.size() - 2);
-    node = &as_object(*node).at("properties").at(key);
-    if (entries) node = &node->at("items");
-  }
-  return as_object(*node);
-}
-
-// What a property says of its numbers and words, wherever in its lists and alternatives; sections below say their own.
-struct Said {
-  std::vector<double> min, above, max;
-  std::vector<std::string> words;
-};
-
-void collect(const Json& node, Said& said) {
-  if (node.contains("properties")) return;
-  if (node.contains("minimum")) said.min.push_back(node["minimum"]);
-  if (node.contains("exclusiveMinimum")) said.above.push_back(node["exclusiveMinimum"]);
-  if (node.contains("maximum")) said.max.push_back(node["maximum"]);
-  if (node.value("type", "") == "boolean") said.words.insert(said.words.end(), {"true", "false"});
-  for (const Json& word : node.value("enum", Json::array()))
-    said.words.push_back(word.is_string() ? word.get<std::string>() : word.dump());
-  for (const Json& alternative : node.value("anyOf", Json::array())) collect(alternative, said);
-  if (!node.contains("items")) return;
-  if (node["items"].is_array())
-    collect(node["items"][0], said);  // a tuple: its first place has the key's range
-  else
-    collect(node["items"], said);
-}
-
-void expect_same(const cli::Key& key, const Json& property) {
-  Said said;
-  collect(property, said);
-  const auto all_are = [](const std::vector<double>& values, double wanted) {
-    return std::all_of(values.begin(), values.end(), [&](double value) { return value == wanted; });
-  };
-  EXPECT_TRUE(all_are(said.max, key.range.max));
-  EXPECT_EQ(said.max.empty(), std::isinf(key.range.max));
-  EXPECT_TRUE(all_are(key.range.above_min ? said.above : said.min, key.range.min));
-  EXPECT_TRUE((key.range.above_min ? said.min : said.above).empty());
-  if (const std::string type = property.value("type", ""); type == "string" || type == "boolean") return;
-  EXPECT_EQ(said.words, std::vector<std::string>(key.choices.begin(), key.choices.end()));
-}
+Json scene_schema() { return test::schema("scene.schema.json"); }
 
 TEST(SceneSchema, HasTheReadersKeysRangesAndWords) {
-  const Json root = schema();
-  for (const auto& [path, section] : cli::keys::all()) {
-    const Json& object = at(root, path);
-    std::vector<std::string> known;
-    for (const cli::Key& key : section->keys) {
-      SCOPED_TRACE(path + "." + std::string(key.name));
-      known.emplace_back(key.name);
-      ASSERT_TRUE(object["properties"].contains(key.name));
-      const Json& property = object["properties"][std::string(key.name)];
-      EXPECT_FALSE(property.value("description", "").empty());
-      expect_same(key, property);
-    }
-    EXPECT_EQ(object["properties"].size(), known.size()) << path;
-    EXPECT_EQ(object["additionalProperties"], false) << path;
-  }
+  const Json root = scene_schema();
+  for (const auto& [path, section] : cli::keys::all())
+    test::expect_same_keys(*section, test::section_of(root, path), path);
 }
 
 // A default of the schema as the effective scene writes it.
@@ -121,7 +49,7 @@ void expect_same_defaults(const Json& object, const cli::Node& map) {
     if (!entry && key == "ratio") continue;  // belongs to levels, which have a test of their own
     ASSERT_TRUE(entry);
     if (entry->value->kind == cli::Node::Kind::map)
-      expect_same_defaults(as_object(property), *entry->value);
+      expect_same_defaults(test::as_object(property), *entry->value);
     else if (property.contains("default"))
       EXPECT_EQ(as_yaml(property["default"]), as_yaml(*entry->value));
     else
@@ -136,9 +64,9 @@ TEST(SceneSchema, HasTheReadersDefaults) {
       "billow: 1\nbodies: [{cloth: {mesh: cloth.obj}}]\nsolver: {filter: {}}\nstrip: {}\n"
       "wind: {gusts: {}}\n");
   const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
-  const Json root = schema();
+  const Json root = scene_schema();
   expect_same_defaults(root, *effective);
-  expect_same_defaults(at(root, "bodies[]"), *effective->find("bodies")->value->items.at(0));
+  expect_same_defaults(test::section_of(root, "bodies[]"), *effective->find("bodies")->value->items.at(0));
 }
 
 TEST(SceneSchema, HasTheReadersDefaultForLevels) {
@@ -147,7 +75,7 @@ TEST(SceneSchema, HasTheReadersDefaultForLevels) {
       folder.scene("billow: 1\nbodies: [{cloth: {mesh: cloth.obj}}]\nsolver: {filter: {kernel: levels}}\n");
   const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
   const cli::Node& filter = *effective->find("solver")->value->find("filter")->value;
-  EXPECT_EQ(as_yaml(at(schema(), "solver.filter")["properties"]["ratio"]["default"]),
+  EXPECT_EQ(as_yaml(test::section_of(scene_schema(), "solver.filter")["properties"]["ratio"]["default"]),
             as_yaml(*filter.find("ratio")->value));
   EXPECT_EQ(as_yaml(*filter.find("target")->value), "force");
 }
@@ -157,7 +85,7 @@ TEST(SceneSchema, HasTheReadersDefaultsForAFish) {
   const auto file = folder.scene("billow: 1\nbodies: [{fish: {}}]\n");
   const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
   const cli::Node& body = *effective->find("bodies")->value->items.at(0);
-  expect_same_defaults(at(schema(), "bodies[]"), body);
+  expect_same_defaults(test::section_of(scene_schema(), "bodies[]"), body);
   const cli::Node& motion = *body.find("fish")->value->find("motion")->value;
   EXPECT_EQ(motion.find("keys")->value->items.size(), 1u);
 }
@@ -167,7 +95,7 @@ TEST(SceneSchema, HasTheReadersDefaultsForASoftBody) {
   folder.write("block.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const auto file = folder.scene("billow: 1\nbodies: [{soft: {mesh: block.obj}}]\n");
   const cli::NodePtr effective = cli::parse_yaml(cli::read_scene(file).effective, "effective");
-  expect_same_defaults(at(schema(), "bodies[]"), *effective->find("bodies")->value->items.at(0));
+  expect_same_defaults(test::section_of(scene_schema(), "bodies[]"), *effective->find("bodies")->value->items.at(0));
 }
 
 TEST(SceneFormat, ExplainsEveryKeyAndWord) {

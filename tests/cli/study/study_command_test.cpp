@@ -1,6 +1,8 @@
 // billow study from outside: runs, resumption, failures, and what is made of them.
 #include <sys/stat.h>
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -139,6 +141,84 @@ pictures:
   EXPECT_TRUE(fs::exists(made("runs/001-0.5/film/run.json")));
 }
 
+TEST_F(StudyCommand, MakesStripsWithoutTimes) {
+  folder_.write("study.yaml",
+                "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.2, strip: {step: 0.02}}\n"
+                "pictures: [{name: strips, kind: strips}, {name: timed, kind: strips, times: [0, 0.1]}]\n");
+  const ToolResult result = study();
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_LT(render::read_png(made("strips.png")).height, render::read_png(made("timed.png")).height);
+}
+
+// A row for each value of its axis; what else varies stands below each picture, not in rows that look the same.
+TEST_F(StudyCommand, GivesEachFrameOfASecondAxisItsLabel) {
+  const std::string text = R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.1, strip: none, render.size: [64, 48], render.views: [textured, velocity], render.velocity_range: 1}
+axes:
+  - {name: solver, values: [{label: explicit}, {label: implicit, set: {solver.method: imex, solver.step: 0.01}}]}
+  - {name: lambda, key: solver.filter.lambda, values: [1, 2, 3]}
+pictures:
+  - {name: grid, kind: frames, rows: solver, times: [0.1]}
+  - {name: films, kind: frames, rows: solver, times: [0, 0.1], views: [velocity]}
+)";
+  folder_.write("study.yaml", text);
+  const ToolResult result = study();
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const render::Image grid = render::read_png(made("grid.png")), films = render::read_png(made("films.png"));
+  EXPECT_EQ(grid.width, 28 + 3 * 312 - 12 + 28) << "three pictures in a row";
+  EXPECT_EQ(films.width, 28 + 2 * 312 - 12 + 28) << "two moments in a row";
+  EXPECT_GT(films.height, 6 * 225) << "six rows";
+  folder_.write("study.yaml", test::edited(text, "[1, 2, 3]", "[1, 2, 5]"));
+  ASSERT_EQ(study().status, 0);
+  EXPECT_NE(render::read_png(made("grid.png")).pixels, grid.pixels) << "the labels are drawn";
+}
+
+TEST_F(StudyCommand, DrawsWhatCameBeforeADivergence) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 20, strip: {step: 0.1}, render.size: [64, 48], render.fps: 1}
+axes: [{name: h, key: solver.step, values: [0.001, 0.19]}]
+measure: {repeats: 1}
+pictures:
+  - {name: strips, kind: strips}
+  - {name: cost, kind: plot, x: h, y: steps}
+)");
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(record()["runs"][1]["status"], "diverged");
+  EXPECT_TRUE(fs::exists(made("strips.png")));
+  EXPECT_NE(test::read_text(made("cost.svg")).find(">Not shown: h = 0.19 s diverged.</text>"), std::string::npos);
+}
+
+TEST_F(StudyCommand, NamesWhatIsPlotted) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.2}
+axes:
+  - {name: lambda, key: solver.filter.lambda, values: [1, 2]}
+  - {name: form, key: solver.filter.form, values: [symmetric, conserving]}
+measure: {render: false}
+pictures:
+  - {name: several, kind: plot, x: lambda, y: [paper, certified], note: Once.}
+  - {name: one, kind: plot, x: form, y: certified_ratio}
+  - {name: none, kind: plot, x: lambda, y: error}
+)");
+  const ToolResult result = study();
+  EXPECT_NE(result.errors.find("'none' is missing: there is no point to plot. Not shown: 4 runs have no error.\n"),
+            std::string::npos)
+      << result.errors;
+  const std::string several = test::read_text(made("several.svg")), one = test::read_text(made("one.svg"));
+  for (const char* text :
+       {"largest stable step [s]", "λ [per mean rest length]", "symmetric", "certified at rest", "Once."})
+    EXPECT_NE(several.find(fmt::format(">{}</text>", text)), std::string::npos) << text;
+  for (const char* text :
+       {"step as a multiple of the unfiltered limit, certified at rest", "form", "conserving", "λ = 2"})
+    EXPECT_NE(one.find(fmt::format(">{}</text>", text)), std::string::npos) << text;
+  const std::string page = test::read_text(made("index.html"));
+  EXPECT_EQ(page.find("Once."), page.rfind("Once.")) << "the picture has it; the page says it to those who cannot see";
+}
+
 // Every picture loads, nothing complains, and the page says what the runs were.
 TEST_F(StudyCommand, MakesAPageThatABrowserOpens) {
   ASSERT_EQ(study().status, 0);
@@ -146,7 +226,8 @@ TEST_F(StudyCommand, MakesAPageThatABrowserOpens) {
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.image.width, 900);
   const std::string html = test::read_text(made("index.html"));
-  for (const char* part : {"limits.svg", "<td>0.5</td>", "results.csv", "billow study study.yaml --only 2"})
+  for (const char* part :
+       {"limits.svg", "<td class=\"label\">0.5</td>", "results.csv", "billow study study.yaml --only 2"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(html.find("http"), std::string::npos) << "asks the network";
 }
@@ -270,6 +351,18 @@ pictures: [{name: strips, kind: strips, times: [0]}, {name: curves, kind: spectr
                                  ", and the scene of run 1 has none; give it one with '" + key + ": {}'\n"),
               std::string::npos)
         << result.errors;
+}
+
+TEST_F(StudyCommand, SaysWhichViewItsSceneLacksForAPicture) {
+  folder_.write("study.yaml",
+                "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.1, render.views: [textured]}\n"
+                "pictures: [{name: frames, kind: frames, times: [0], views: [velocity]}]\n");
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("it needs the view 'velocity', and the scene of run 1 draws none; add it to "
+                               "render.views\n"),
+            std::string::npos)
+      << result.errors;
 }
 
 TEST_F(StudyCommand, LeavesOtherFoldersAlone) {

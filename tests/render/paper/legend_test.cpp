@@ -40,7 +40,7 @@ double covered(const Image& frame, std::uint8_t grey) {
 TEST(Legend, SaysBothEndsAndTheMiddle) {
   EXPECT_THAT(legend_numbers(VelocityColour::components, 2.312), ElementsAre("\u22122.31", "0", "+2.31"));
   EXPECT_THAT(legend_numbers(VelocityColour::magnitude, 2.312), ElementsAre("0", "1.16", "2.31"));
-  EXPECT_THAT(legend_numbers(VelocityColour::components, 4e-5), ElementsAre("\u22124·10⁻⁵", "0", "+4·10⁻⁵"));
+  EXPECT_THAT(legend_numbers(VelocityColour::components, 4e-5), ElementsAre("\u22124 × 10⁻⁵", "0", "+4 × 10⁻⁵"));
 }
 
 // A film's, a phone's, a banner's: never much of it, and nothing where it could not be read.

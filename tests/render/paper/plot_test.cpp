@@ -17,6 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
 Plot two_curves() {
   return {"Time \"against\" size",
           "particles",
@@ -78,9 +84,7 @@ TEST(WritePlot, ShowsATextAsItIs) {
     plot.title = plot.x_label = plot.y_label = plot.curves[0].name = text;
     write_plot(plot, folder.path() / "text");
     const std::string svg = test::read_text(folder.path() / "text.svg");
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = svg.find(">" + shown + "</text>", at)) != std::string::npos; ++at) ++count;
-    EXPECT_EQ(count, 4u);
+    EXPECT_EQ(count_of(svg, ">" + shown + "</text>"), 4u);
   }
 }
 
@@ -93,6 +97,86 @@ TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
   write_plot(gap, folder.path() / "gap");
   EXPECT_NE(test::read_text(folder.path() / "gap.svg"), test::read_text(folder.path() / "whole.svg"));
   EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\nc,0,1\nc,1,2\nc,3,2\nc,4,1\n");
+}
+
+Plot thirty_six_curves() {
+  Plot plot{"36 curves", "x", "y", false, false, true, {}};
+  plot.dimensions = {{{"RK4", "Verlet", "FB Euler"}}, {{"plain", "symmetric", "conserving"}}, {{"a", "b", "c", "d"}}};
+  for (int m = 0; m < 3; ++m)
+    for (int f = 0; f < 3; ++f)
+      for (int l = 0; l < 4; ++l)
+        plot.curves.push_back({fmt::format("{}{}{}", m, f, l), {0, 1, 2}, {1.0 * m, 0.5 * f + m, 0.3 * l}, {m, f, l}});
+  return plot;
+}
+
+// A name for each colour, each mark and each panel, none for each of 36 curves.
+TEST(WritePlot, SplitsManyCurvesIntoPanelsWithOneLegend) {
+  const test::TemporaryFolder folder;
+  write_plot(thirty_six_curves(), folder.path() / "many");
+  const std::string svg = test::read_text(folder.path() / "many.svg");
+  for (const char* name : {"RK4", "Verlet", "FB Euler", "plain", "symmetric", "conserving", "a", "b", "c", "d"})
+    EXPECT_EQ(count_of(svg, fmt::format(">{}</text>", name)), 1u) << name;
+  EXPECT_EQ(count_of(test::read_text(folder.path() / "many.csv"), "\n"), 1u + 36 * 3);
+}
+
+TEST(WritePlot, GivesQuantitiesThatShareNoScaleAxesOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  Plot plot{"", "x", "", false, false, true, {{"e", {1, 2}, {1e-3, 2e-3}, {0}}, {"k", {1, 2}, {5000, 9000}, {1}}}};
+  plot.dimensions = {{{"error [m]", "energy [J]"}, true}};
+  write_plot(plot, folder.path() / "two");
+  const std::string svg = test::read_text(folder.path() / "two.svg");
+  for (const char* text : {"error [m]", "energy [J]", "0.0010", "9,000"})
+    EXPECT_THAT(svg, testing::HasSubstr(fmt::format(">{}</text>", text)));
+}
+
+TEST(WritePlot, NamesWhatXCounts) {
+  const test::TemporaryFolder folder;
+  Plot plot{"", "solver", "y", false, false, true, {{"c", {0, 1}, {1, 2}}}};
+  plot.x_names = {"100 %s", "=cmd|x"};
+  write_plot(plot, folder.path() / "names");
+  EXPECT_EQ(test::read_text(folder.path() / "names.csv"), "curve,x,y\nc,100 %s,1\nc,'=cmd|x,2\n");
+  for (const char* name : {"100 %s", "=cmd|x"})
+    EXPECT_THAT(test::read_text(folder.path() / "names.svg"), testing::HasSubstr(fmt::format(">{}</text>", name)));
+}
+
+TEST(WritePlot, HasItsNote) {
+  const test::TemporaryFolder folder;
+  Plot plot = two_curves();
+  plot.note = "Not shown: run 3.";
+  write_plot(plot, folder.path() / "note");
+  EXPECT_EQ(count_of(test::read_text(folder.path() / "note.svg"), ">Not shown: run 3.</text>"), 1u);
+}
+
+TEST(WritePlot, LaysOutManyPanelsAndRefusesTooMany) {
+  Plot plot{"", "x", "y", false, false, true, {}};
+  plot.dimensions = {{std::vector<std::string>(7, "a")}, {std::vector<std::string>(1000, "b"), true}};
+  for (int p = 0; p < 1000; ++p) plot.curves.push_back({"c", {0, 1}, {0, 1}, {0, p}});
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(write_plot(plot, folder.path() / "huge"), InputError);
+  plot.curves.resize(60);
+  write_plot(plot, folder.path() / "large");
+  EXPECT_GT(read_png(folder.path() / "large.png").height, 5000);
+}
+
+TEST(WritePlot, ShowsACurveThatAnotherCovers) {
+  const test::TemporaryFolder folder;
+  Plot plot{"", "x", "y", false, false, true, {{"under", {0, 1, 2}, {1, 2, 1}}, {"over", {0, 1, 2}, {1, 2, 1}}}};
+  write_plot(plot, folder.path() / "same");
+  plot.curves[1].y[1] = 1.5;
+  write_plot(plot, folder.path() / "other");
+  EXPECT_THAT(test::read_text(folder.path() / "same.svg"), testing::HasSubstr("stroke-width=\"5.00\""));
+  EXPECT_THAT(test::read_text(folder.path() / "other.svg"), testing::Not(testing::HasSubstr("stroke-width=\"5.00\"")));
+}
+
+// Letters of a title that say what only a tag may.
+TEST(WritePlot, ChangesNoTextForItsBoldFace) {
+  const test::TemporaryFolder folder;
+  Plot plot = two_curves();
+  plot.title = "font-family=\"DejaVu Sans:Bold\"";
+  write_plot(plot, folder.path() / "bold");
+  const std::string svg = test::read_text(folder.path() / "bold.svg");
+  EXPECT_THAT(svg, testing::HasSubstr(">font-family=\"DejaVu Sans:Bold\"</text>"));
+  EXPECT_THAT(svg, testing::HasSubstr("font-weight=\"bold\""));
 }
 
 /// The pictures' and the table's text of a plot.
