@@ -90,6 +90,7 @@ struct FilmPlan {
   FrameRange recorded;              // frames that the other outputs are of
   std::vector<render::View> views;  // of each; may be none
   bool only_frames = false;         // nothing that takes other moments than the frames'
+  bool only_pictures = false;       // nothing else at all: `recorded` is of no account
 };
 
 /// Draws frames into `folder`, and writes what else the scene asks for. States, drawing and `threads` encoders overlap;

@@ -73,6 +73,12 @@ Facts facts_of(const Run& run, const FilmReport& report, const Progress& progres
   return facts;
 }
 
+// Has the page show the model that the run's folder holds.
+void show_model(RunPage& page) {
+  page.glb = word_of(RunFile::glb);
+  page.glb_script = word_of(RunFile::glb_script);
+}
+
 // Why the run has fewer frames than it was asked for; empty where it has them all.
 std::string shortfall(const Scene& scene, const FilmReport& report) {
   if (report.divergence) return "This run did not finish: " + *report.divergence + ".";
@@ -103,11 +109,6 @@ std::string time_taken(const Progress& progress, const FilmReport& report) {
                             report.simulate.wall, report.draw.wall, report.encode.wall);
   }
   return fmt::format("{:.2f} s ({})", progress.wall(), phases);
-}
-
-void show_model(RunPage& page) {
-  page.glb = word_of(RunFile::glb);
-  page.glb_script = word_of(RunFile::glb_script);
 }
 
 RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,

@@ -18,7 +18,4 @@ std::string time_taken(const Progress& progress, const FilmReport& report);
 RunPage describe_run(const Run& run, const FilmReport& report, const std::vector<std::string>& warnings,
                      const Progress& progress);
 
-/// Has the page show the model that the run's folder holds (caches/scene.glb).
-void show_model(RunPage& page);
-
 }  // namespace billow::cli
