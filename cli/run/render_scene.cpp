@@ -235,7 +235,7 @@ class SceneRun {
       listed = frames_there(report);
       lacking = missing(report, listed);
       has_pictures = !listed.empty();
-      if (static_cast<long>(listed.size()) == frame_count(run_.scene))
+      if (static_cast<long>(listed.size()) == report.series.last_frame())  // all that the run has
         listed.clear();
       else
         differing["drawn"] = listed;

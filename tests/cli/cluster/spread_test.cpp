@@ -121,8 +121,8 @@ TEST_F(Spread, RunsThatAreFinishedAreNotRepeated) {
 
 TEST_F(Spread, ARunThatIsStoppedGoesOn) {
   const std::vector<std::string> one = {"study", "study.yaml", "-o", "made", "--runs", "1", "--resume"};
-  folder_.write("study.yaml",
-                test::edited(test::read_text(folder_.path() / "study.yaml"), "axes:", "set: {duration: 4}\naxes:"));
+  folder_.write("study.yaml", test::edited(test::read_text(folder_.path() / "study.yaml"), "axes:",
+                                           "set: {duration: 1.6, render.size: [640, 480], render.samples: 16}\naxes:"));
   const fs::path film = folder_.path() / "made/runs/001-0.5/film";
   ASSERT_EQ(billow(one, 0.0, film / "textured/frame_0002.png").status, 130);
   ASSERT_TRUE(fs::exists(film / "states/states.json"));
