@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/atomic_file.h"
@@ -40,7 +41,7 @@ std::string directives(const SlurmScript& script, const SlurmJob& job, const Spr
   const std::string log = without_percent((log_folder(script) / job.name).string());
   std::string text = fmt::format("#SBATCH --job-name={}\n", shell_line({script.title + "-" + job.name}));
   text += fmt::format("#SBATCH --output={}\n", shell_line({log + (job.tasks.empty() ? "-%j.txt" : "-%A_%a.txt")}));
-  text += "#SBATCH --open-mode=append\n#SBATCH --cpus-per-task=1\n";
+  text += fmt::format("#SBATCH --open-mode=append\n#SBATCH --cpus-per-task={}\n", std::max(1, script.threads));
   if (job.can_be_stopped) text += "#SBATCH --requeue\n#SBATCH --signal=B:USR1@120\n";
   if (job.alone) text += "#SBATCH --exclusive\n";
   for (const std::string& line : options.sbatch) text += fmt::format("#SBATCH {}\n", line);

@@ -24,6 +24,7 @@ struct SlurmScript {
   std::string title;                           // of the jobs
   std::filesystem::path output;                // what the jobs write to; their logs lie beside it
   std::vector<std::filesystem::path> folders;  // which jobs find there
+  int threads = 0;                             // of each job; 0: one
   std::vector<SlurmJob> jobs;
 };
 

@@ -129,7 +129,7 @@ void add_progress(CLI::App& command, ProgressStyle& style) {
 // How work is handed to others: the options that stand in place of doing it.
 std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std::string& piece) {
   CLI::Option* commands =
-      c.add_flag("--commands", r.spread.commands, "Print a line of the shell for each unfinished " + piece);
+      c.add_flag("--commands", r.spread.commands, "Print lines of the shell that do the unfinished " + piece);
   CLI::Option* slurm = c.add_flag("--slurm", r.spread.slurm, "Print a script that has Slurm do what is unfinished");
   slurm->excludes(commands);
   c.add_flag("--submit", r.spread.submit, "Run that script")->needs(slurm);
@@ -143,9 +143,9 @@ std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std:
       ->needs(slurm)
       ->check([](const std::string& line) {
         const auto fault = sbatch_fault(line);
-        return fault ? "--sbatch: " + *fault : std::string();
+        return fault.value_or("");
       });
-  c.add_option("--chunk", r.spread.chunk, "So many of them a line or task")
+  c.add_option("--chunk", r.spread.chunk, "So many " + piece + " a line or task")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   return {commands, slurm};
@@ -203,7 +203,7 @@ void add_render(CLI::App& app, Request& r) {
       c.add_flag("--collect", r.render.collect, "With --from: draw nothing; write record and page of what is drawn")
           ->needs(from)
           ->excludes(frames_only);
-  const std::vector<CLI::Option*> spread = add_spread_options(c, r, "frame");
+  const std::vector<CLI::Option*> spread = add_spread_options(c, r, "frames");
   for (CLI::Option* option : {frames_only, collect, c.get_option("--overwrite")})
     for (CLI::Option* elsewhere : spread) option->excludes(elsewhere);
   collect->excludes("--overwrite");
@@ -330,7 +330,7 @@ void add_study(CLI::App& app, Request& r) {
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
   for (CLI::Option* option : {list, only, collect}) some->excludes(option);
-  for (CLI::Option* elsewhere : add_spread_options(c, r, "run"))
+  for (CLI::Option* elsewhere : add_spread_options(c, r, "runs"))
     for (CLI::Option* option : {list, only, collect, some, overwrite}) elsewhere->excludes(option);
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
       ->check(CLI::Range(1, 256))

@@ -101,6 +101,7 @@ SlurmScript script_of(const FramesWork& work, const Words& lists) {
   SlurmScript script;
   script.title = work.options.scene.stem().string();
   script.output = work.folder;
+  script.threads = work.options.threads;
   script.about = fmt::format("# {} frames of {} are to be drawn: {} tasks, and what collects them.\n",
                              work.unfinished.size(), work.options.scene.string(), lists.size());
   if (work.options.from.empty()) script.jobs.push_back(simulating_job(work));

@@ -56,6 +56,7 @@ SlurmScript script_of(const StudyPlan& plan, std::size_t unfinished, const Words
   script.title = plan.study.file.stem().string();
   script.output = plan.folder;
   script.folders = {plan.folder / "runs"};
+  script.threads = plan.threads;
   script.about = fmt::format("# {} of the {} runs of {} are unfinished: {} tasks, and what collects them.\n",
                              unfinished, plan.runs.size(), plan.study.file.string(), lists.size());
   if (!lists.empty()) script.jobs.push_back(runs_job(plan, lists));

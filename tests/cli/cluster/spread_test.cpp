@@ -138,11 +138,13 @@ TEST_F(Spread, ARunThatIsStoppedGoesOn) {
 
 TEST_F(Spread, TheScriptOfAStudyHasItsUnfinishedRuns) {
   ASSERT_EQ(billow({"study", "study.yaml", "-o", "made", "--runs", "2"}).status, 0);
-  const std::string script =
-      billow({"study", "study.yaml", "-o", "made", "--slurm", "--array-limit", "7", "--sbatch", "--time=5"}).output;
+  const std::string script = billow({"study", "study.yaml", "-o", "made", "--slurm", "--array-limit", "7", "--sbatch",
+                                     "--time=5", "--threads", "3"})
+                                 .output;
   EXPECT_THAT(script, HasSubstr("#SBATCH --array=0-1%7\n"));
   EXPECT_THAT(script, HasSubstr("tasks=(\n  1 3\n)\n"));
   EXPECT_THAT(script, HasSubstr("#SBATCH --time=5\n"));
+  EXPECT_THAT(script, HasSubstr("#SBATCH --cpus-per-task=3\n"));
   EXPECT_THAT(script, HasSubstr("--dependency=\"afterany:${runs%%;*}\""));
   EXPECT_EQ(shell("cat <<'EOF' | bash -n\n" + script + "EOF\n").status, 0);
   EXPECT_THAT(billow({"study", "study.yaml", "-o", "made", "--slurm", "--sbatch", "--array=1"}).errors,
