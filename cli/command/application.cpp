@@ -45,6 +45,13 @@ std::vector<FrameSpan> parse_frame_list(const std::string& text) {
   return *spans;
 }
 
+// "1-12,40-"
+std::vector<FrameSpan> parse_run_list(const std::string& text) {
+  const auto spans = parse_frames(text);
+  if (!spans) throw CLI::ValidationError("--runs", fmt::format("'{}' is no list of runs like 1-12,40- or 7", text));
+  return *spans;
+}
+
 // "ssim=0.99"
 render::MetricLimit parse_metric(const std::string& text) {
   const std::size_t equals = std::min(text.find('='), text.size());
@@ -74,8 +81,9 @@ struct Request {
   StudyOptions study;
   VideoOptions video;
   SheetOptions sheet;
+  SpreadOptions spread;
   std::vector<std::string> overrides, metrics;
-  std::string frames, caches, pixels, backend;
+  std::string frames, runs, caches, pixels, backend;
   bool overwrite = false, resume = false, untrusted = false, version_as_json = false;
   std::string_view commit;
   std::function<int()> command;
@@ -139,6 +147,36 @@ render::Backend chosen_backend(const Request& request) {
   }
 }
 
+// How work is handed to others: the options that stand in place of doing it.
+std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std::string& piece) {
+  CLI::Option* commands =
+      c.add_flag("--commands", r.spread.commands, "Print lines of the shell that do the unfinished " + piece);
+  CLI::Option* slurm = c.add_flag("--slurm", r.spread.slurm, "Print a script that has Slurm do what is unfinished");
+  slurm->excludes(commands);
+  c.add_flag("--submit", r.spread.submit, "Run that script")->needs(slurm);
+  c.add_option("--array-limit", r.spread.array_limit, "Tasks that Slurm runs at a time (default: 16)")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N")
+      ->needs(slurm);
+  c.add_option("--sbatch", r.spread.sbatch, "More options for every job, as sbatch takes them (repeatable)")
+      ->type_name("OPTIONS")
+      ->allow_extra_args(false)
+      ->needs(slurm)
+      ->check([](const std::string& line) {
+        const auto fault = sbatch_fault(line);
+        return fault.value_or("");
+      });
+  c.add_option("--chunk", r.spread.chunk, "So many " + piece + " a line or task")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  return {commands, slurm};
+}
+
+// Those that depend on either of two.
+void check_spread(const Request& r) {
+  if (r.spread.chunk > 0 && !r.spread.any()) throw CLI::ValidationError("--chunk", "needs --slurm or --commands");
+}
+
 // What running a scene takes, drawn or not.
 void add_run_options(CLI::App& c, Request& r) {
   add_scene_options(c, r.render.scene, r);
@@ -162,7 +200,10 @@ void add_run_options(CLI::App& c, Request& r) {
     if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
     if (!r.render.simulate_only) r.render.backend = chosen_backend(r);
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
-    set_command(r, r.render.scene, [&r] { return render_command(r.render); });
+    r.spread.untrusted = r.untrusted;
+    check_spread(r);
+    set_command(r, r.render.scene,
+                [&r] { return r.spread.any() ? spread_frames_command(r.render, r.spread) : render_command(r.render); });
   });
 }
 
@@ -174,9 +215,22 @@ void add_render(CLI::App& app, Request& r) {
   c.add_option("--frames", r.frames, "Draw only these frames, 1-based: 7, 1-250, 300-, every fifth 1-250:5, or a list")
       ->type_name("LIST")
       ->excludes(resume);
-  c.add_option("--from", r.render.from, "Draw the states that 'billow simulate' wrote to this folder")
-      ->type_name("DIR")
-      ->excludes(resume);
+  CLI::Option* from =
+      c.add_option("--from", r.render.from, "Draw the states that 'billow simulate' wrote to this folder")
+          ->type_name("DIR")
+          ->excludes(resume);
+  CLI::Option* frames_only =
+      c.add_flag("--frames-only", r.render.frames_only, "With --from: leave the record and the page to --collect")
+          ->needs(from);
+  CLI::Option* collect =
+      c.add_flag("--collect", r.render.collect, "With --from: draw nothing; write record and page of what is drawn")
+          ->needs(from)
+          ->excludes(frames_only);
+  const std::vector<CLI::Option*> spread = add_spread_options(c, r, "frames");
+  for (CLI::Option* option : {frames_only, collect, c.get_option("--overwrite")})
+    for (CLI::Option* elsewhere : spread) option->excludes(elsewhere);
+  collect->excludes("--overwrite");
+  c.add_flag("--video", r.spread.video, "With --slurm: make a film of the frames in the end")->needs(spread.back());
 }
 
 void add_simulate(CLI::App& app, Request& r) {
@@ -294,15 +348,28 @@ void add_study(CLI::App& app, Request& r) {
   CLI::Option* overwrite = c.add_flag("--overwrite", r.study.overwrite, "Run again what is finished");
   // How a study's own processes are started; no part of the help.
   c.add_option("--perform", r.study.perform)->check(CLI::Range(1, 1000000))->group("");
+  CLI::Option* some =
+      c.add_option("--runs", r.runs, "Do these runs alone, where they are unfinished: 7, 1-12,40-")->type_name("LIST");
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
+  for (CLI::Option* option : {list, only, collect}) some->excludes(option);
+  for (CLI::Option* elsewhere : add_spread_options(c, r, "runs"))
+    for (CLI::Option* option : {list, only, collect, some, overwrite}) elsewhere->excludes(option);
   c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
   add_backend(c, r);
+  c.add_option("--threads", r.study.threads, "Threads of each run (default: one per core)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  c.add_flag("--resume", r.study.resume,
+             "Runs keep their states while they go on: one that is stopped is gone on with from there");
   c.final_callback([&r] {
-    r.study.untrusted = r.untrusted;
+    check_spread(r);
+    r.study.untrusted = r.spread.untrusted = r.untrusted;
     r.study.backend = chosen_backend(r);
+    r.study.spread = r.spread;
+    if (!r.runs.empty()) r.study.some = parse_run_list(r.runs);
     set_command(r, r.study.study, [&r] { return study_command(r.study); });
   });
 }

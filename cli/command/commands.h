@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/cluster/spread.h"
 #include "cli/command/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
@@ -14,6 +15,8 @@
 namespace billow::cli {
 
 int render_command(const RenderOptions& options);
+/// The frames of a scene as commands or jobs for other processes.
+int spread_frames_command(const RenderOptions& options, const SpreadOptions& spread);
 
 struct SceneOptions {
   std::filesystem::path scene;
@@ -61,10 +64,14 @@ struct StudyOptions {
   std::filesystem::path output;  // empty: out/ and the study's name
   bool list = false;             // print the runs and do nothing
   std::optional<int> only;       // this run alone, without assembling
+  std::vector<FrameSpan> some;   // these runs, where they are unfinished, without assembling; empty: all
   std::optional<int> perform;    // this run alone, in this process, which has been started for it
   bool collect = false;          // assemble what is there, without running
   bool overwrite = false;        // run again what is finished
   int jobs = 0;                  // runs at a time; 0: one per core, or one where runs are timed
+  int threads = 0;               // of a run; 0: one per core
+  bool resume = false;           // runs keep their states while they go on
+  SpreadOptions spread;          // for other processes to do, instead
   bool untrusted = false;        // runs read no file outside of the study's folder either
   render::Backend backend = {};  // that draws its runs
 };

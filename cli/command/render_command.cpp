@@ -4,10 +4,28 @@
 #include "cli/command/commands.h"
 #include "cli/run/state_store.h"
 #include "cli/run/watched_scene.h"
+#include "cli/text/command_text.h"
 
 namespace billow::cli {
 
-int render_command(const RenderOptions& options) {
+namespace {
+
+// What is collected says how the same is made by one process, as a record that one has written does.
+std::string command_of_whole(const RenderOptions& options) {
+  std::vector<std::string> words = {"billow", "render", options.scene.string()};
+  for (const Override& change : options.overrides) words.insert(words.end(), {"-D", change.path + "=" + change.value});
+  RenderOptions whole = options;
+  whole.output.clear(), whole.from.clear();
+  if (const auto folder = output_of(options); folder != output_of(whole))
+    words.insert(words.end(), {"-o", folder.string()});
+  return command_line(words);
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& given) {
+  RenderOptions options = given;
+  if (options.collect) options.command = command_of_whole(options);
   Progress progress(options.progress, process_start());
   if (options.durable) write_durably();
   const Scene scene = read_scene(options.scene, options.overrides, progress);

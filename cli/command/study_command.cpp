@@ -11,12 +11,14 @@
 #include "base/folder_lock.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
+#include "cli/run/frame_list.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/output_folder.h"
 #include "cli/study/study_page.h"
 #include "cli/study/study_pictures.h"
 #include "cli/study/study_plan.h"
 #include "cli/study/study_run.h"
+#include "cli/study/study_spread.h"
 #include "cli/study/study_work.h"
 #include "cli/text/terminal.h"
 #include "render/gl/gl_context.h"
@@ -70,7 +72,8 @@ int list_runs(const StudyPlan& plan) {
 // In a process of its own, which run_jobs has started.
 int perform(const StudyPlan& plan, int number) {
   catch_interrupts();
-  const RunResult result = perform_run(plan.study, plan.run(number), plan.folder_of(number), plan.backend);
+  const RunResult result =
+      perform_run(plan.study, plan.run(number), plan.folder_of(number), {plan.threads, plan.resume, plan.backend});
   if (interrupted_by() != 0) return 128 + interrupted_by();
   say_line("{}: {}{}", plan.name_of(number), name(result.status), result.message.empty() ? "" : "; " + result.message);
   return exit_done;
@@ -84,15 +87,17 @@ int do_one(const StudyPlan& plan, int number) {
   return is_finished(result) ? exit_done : exit_internal_fault;
 }
 
-std::vector<DueRun> due_runs(const StudyPlan& plan, bool all) {
+// Of the runs `numbers`; `all`: the finished ones too.
+std::vector<DueRun> due_runs(const StudyPlan& plan, const std::vector<long>& numbers, bool all) {
   std::vector<DueRun> due;
-  for (const StudyRun& run : plan.runs) {
+  for (const long given : numbers) {
+    const int number = static_cast<int>(given);
     // Another process may write the result now: the stamp must not be younger than what is looked at.
-    const ResultStamp before = result_stamp(plan.folder_of(run.number));
-    const RunResult result = plan.result_of(run.number);
+    const ResultStamp before = result_stamp(plan.folder_of(number));
+    const RunResult result = plan.result_of(number);
     if (result.status == RunStatus::missing && !result.message.empty())
-      say_line("warning: {}: {}; it is done again", plan.name_of(run.number), result.message);
-    if (all || !is_finished(result)) due.push_back({run.number, before});
+      say_line("warning: {}: {}; it is done again", plan.name_of(number), result.message);
+    if (all || !is_finished(result)) due.push_back({number, before});
   }
   return due;
 }
@@ -106,12 +111,16 @@ std::vector<DueRun> begun_anew(const StudyPlan& plan) {
   return due;
 }
 
-void run_missing(const StudyPlan& plan, const StudyOptions& options) {
-  const std::vector<DueRun> due = due_runs(plan, options.overwrite);
+int jobs_of(const StudyPlan& plan, const StudyOptions& options) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const int jobs = options.jobs > 0 ? options.jobs : plan.study.measures.repeats > 0 ? 1 : cores;
-  say_line("{}: {} runs, {} of them finished already", plan.study.file.string(), plan.runs.size(),
-           plan.runs.size() - due.size());
+  return options.jobs > 0 ? options.jobs : plan.study.measures.repeats > 0 ? 1 : cores;
+}
+
+void run_missing(const StudyPlan& plan, const std::vector<long>& numbers, const StudyOptions& options) {
+  const std::vector<DueRun> due = due_runs(plan, numbers, options.overwrite);
+  const int jobs = jobs_of(plan, options);
+  say_line("{}: {} runs, {} of them finished already", plan.study.file.string(), numbers.size(),
+           numbers.size() - due.size());
   do_runs(plan, due, jobs);
   for (auto others = begun_anew(plan); !others.empty() && interrupted_by() == 0; others = begun_anew(plan))
     do_runs(plan, others, jobs);
@@ -128,6 +137,30 @@ std::size_t report_shortfalls(const StudyPlan& plan, const std::vector<RunResult
              result.message.empty() ? "" : "; " + result.message);
   }
   return lacking;
+}
+
+// A part of the study, for others to do the rest and somebody to assemble all.
+int do_some(const StudyPlan& plan, const std::vector<long>& numbers, const StudyOptions& options) {
+  do_runs(plan, due_runs(plan, numbers, options.overwrite), jobs_of(plan, options));
+  if (interrupted_by() != 0) return 128 + interrupted_by();
+  const bool whole = std::all_of(numbers.begin(), numbers.end(),
+                                 [&](long number) { return is_finished(plan.result_of(static_cast<int>(number))); });
+  return whole ? exit_done : exit_internal_fault;
+}
+
+int spread(const StudyPlan& plan, const std::vector<long>& numbers, const SpreadOptions& options) {
+  check_folder(plan.folder);
+  std::vector<long> unfinished;
+  for (const DueRun& run : due_runs(plan, numbers, false)) unfinished.push_back(run.number);
+  spread_study(plan, unfinished, options);
+  return exit_done;
+}
+
+std::vector<long> chosen_runs(const StudyPlan& plan, const StudyOptions& options) {
+  const auto total = static_cast<long>(plan.runs.size());
+  if (options.only) return {*options.only};
+  return numbers_in(options.some.empty() ? std::vector<FrameSpan>{FrameSpan{}} : options.some, total, "--runs",
+                    "the study has runs");
 }
 
 // By one process at a time, so that all files are of the same results; who comes last has them all.
@@ -156,23 +189,23 @@ int study_command(const StudyOptions& options) {
   StudyPlan plan = make_plan(options.study, options.output);
   plan.untrusted = options.untrusted;
   plan.backend = options.backend;
+  plan.threads = options.threads, plan.resume = options.resume;
   if (options.perform) {
     check_number(plan, "--perform", *options.perform);
     return perform(plan, *options.perform);
   }
-  if (options.only) {
-    check_number(plan, "--only", *options.only);
-    read_hash(plan, *options.only);
-  } else {
-    // A fault in the last run's scene is found before the first one starts.
-    for (const StudyRun& run : plan.runs) read_hash(plan, run.number);
-  }
+  if (options.only) check_number(plan, "--only", *options.only);
+  const std::vector<long> numbers = chosen_runs(plan, options);
+  // A fault in the last run's scene is found before the first one starts.
+  for (const long number : numbers) read_hash(plan, static_cast<int>(number));
   if (options.list) return list_runs(plan);
+  if (options.spread.any()) return spread(plan, numbers, options.spread);
   if (!options.collect && plan.study.measures.render) render::GlContext(plan.backend);  // before every run fails by it
   catch_interrupts();
   make_folders(plan);
   if (options.only) return do_one(plan, *options.only);
-  if (!options.collect) run_missing(plan, options);
+  if (!options.some.empty()) return do_some(plan, numbers, options);
+  if (!options.collect) run_missing(plan, numbers, options);
   return interrupted_by() != 0 ? 128 + interrupted_by() : assemble(plan);
 }
 

@@ -154,7 +154,8 @@ class Film {
  private:
   void simulate() {
     FrameRecorder frames(setting_, plan_.drawn, snapshots_);
-    std::vector<std::unique_ptr<Recorder>> recorders = make_recorders(setting_, plan_.only_frames, report_);
+    std::vector<std::unique_ptr<Recorder>> recorders;
+    if (!plan_.only_pictures) recorders = make_recorders(setting_, plan_.only_frames, report_);
     try {
       record(frames, recorders);
     } catch (const DivergenceError& error) {

@@ -91,6 +91,7 @@ struct FilmPlan {
   FrameRange recorded;              // frames that the other outputs are of
   std::vector<render::View> views;  // of each; may be none
   bool only_frames = false;         // nothing that takes other moments than the frames'
+  bool only_pictures = false;       // nothing else at all: `recorded` is of no account
   render::Backend backend = {};     // that draws them
 };
 

@@ -98,16 +98,31 @@ std::optional<std::vector<FrameSpan>> parse_frames(const std::string& text) {
   return spans;
 }
 
-FrameRange frames_in(const std::vector<FrameSpan>& spans, long total) {
-  std::vector<long> frames;
+std::string list_text(const std::vector<long>& numbers) {
+  std::string text;
+  for (std::size_t begin = 0, end = 0; begin < numbers.size(); begin = end) {
+    while (end < numbers.size() && numbers[end] - numbers[begin] == static_cast<long>(end - begin)) ++end;
+    text += (text.empty() ? "" : ",") + text_of(FrameSpan{numbers[begin], numbers[end - 1]});
+  }
+  return text;
+}
+
+std::vector<long> numbers_in(const std::vector<FrameSpan>& spans, long total, std::string_view option,
+                             std::string_view whole) {
+  std::vector<long> numbers;
   for (const FrameSpan& span : spans) {
     if (span.first > total || span.last.value_or(total) > total)
-      throw InputError(fmt::format("--frames {}: the scene has frames 1 to {}", text_of(span), total));
+      throw InputError(fmt::format("{} {}: {} 1 to {}", option, text_of(span), whole, total));
     const long last = span.last.value_or(total);
-    for (long k = 0; k <= (last - span.first) / span.step; ++k) frames.push_back(span.first + k * span.step);
+    for (long k = 0; k <= (last - span.first) / span.step; ++k) numbers.push_back(span.first + k * span.step);
   }
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+FrameRange frames_in(const std::vector<FrameSpan>& spans, long total) {
+  std::vector<long> frames = numbers_in(spans, total, "--frames", "the scene has frames");
   FrameRange range{frames.front(), frames.back(), {}};
   if (static_cast<long>(frames.size()) < range.count()) range.listed = std::move(frames);
   return range;

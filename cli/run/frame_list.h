@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace billow::cli {
@@ -23,6 +24,9 @@ struct FrameSpan {
   long step = 1;
 };
 
+/// "1-3,7": ascending numbers, as such a list.
+std::string list_text(const std::vector<long>& numbers);
+
 /// Reads pieces with commas between them. Nothing where `text` is no such list.
 std::optional<std::vector<FrameSpan>> parse_frames(const std::string& text);
 
@@ -30,7 +34,12 @@ std::optional<std::vector<FrameSpan>> parse_frames(const std::string& text);
 std::string frames_text(const std::vector<long>& frames);
 std::string frames_text(const FrameRange& range);
 
-/// Those of the frames 1 to `total` that the spans mean, each once. Throws InputError when a span ends beyond them.
+/// Those of the numbers 1 to `total` that the spans mean, ascending, each once. Throws InputError when a span ends
+/// beyond them, "OPTION SPAN: WHOLE 1 to TOTAL".
+std::vector<long> numbers_in(const std::vector<FrameSpan>& spans, long total, std::string_view option,
+                             std::string_view whole);
+
+/// Those of the frames 1 to `total` that the spans mean. Throws InputError when a span ends beyond them.
 FrameRange frames_in(const std::vector<FrameSpan>& spans, long total);
 
 }  // namespace billow::cli

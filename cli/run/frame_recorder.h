@@ -26,7 +26,9 @@ class FrameRecorder : public Recorder {
       : drawn_(setting.run.drawn),
         range_(range),
         frames_(frame_schedule(setting.run.scene, range.last)),
-        drawing_(drawing) {}
+        drawing_(drawing) {
+    frames_.pass_to(range.first);
+  }
   double wants() const override { return frames_.next(); }
   void add(double time, const sim::State& state) override {
     if (frames_.take(time) && range_.contains(frames_.taken()))

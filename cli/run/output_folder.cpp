@@ -185,6 +185,11 @@ nlohmann::json earlier_record(const fs::path& folder) {
   return is_record ? record : nlohmann::json();
 }
 
+bool is_of_scene(const fs::path& folder, const Scene& scene) {
+  const nlohmann::json record = earlier_record(folder);
+  return record.is_object() && record.value(nlohmann::json::json_pointer("/scene/hash"), "") == scene.hash;
+}
+
 void check_output_folder(const fs::path& folder, Existing existing, const Scene& scene) {
   const bool empty = is_empty_or_missing(folder);
   if (!empty && existing == Existing::refuse)

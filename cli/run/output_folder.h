@@ -29,6 +29,9 @@ void make_folder_within(const std::filesystem::path& folder, const std::filesyst
 /// which there is nothing, and the temporary files of runs that were killed, count as nothing. Changes nothing.
 void check_output_folder(const std::filesystem::path& folder, Existing existing, const Scene& scene);
 
+/// Whether run.json of `folder` is of this very scene.
+bool is_of_scene(const std::filesystem::path& folder, const Scene& scene);
+
 /// run.json of `folder`, as far as it can be read; null where it cannot.
 nlohmann::json earlier_record(const std::filesystem::path& folder);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -22,6 +23,7 @@
 #include "cli/run/run_warnings.h"
 #include "cli/run/simulated_states.h"
 #include "cli/run/spooled_states.h"
+#include "cli/run/whole_frames.h"
 #include "cli/scene/mesh_warnings.h"
 #include "cli/scene/step_warnings.h"
 #include "render/gl/gl_context.h"
@@ -43,14 +45,6 @@ void say(Progress& progress, const Warnings& warnings) {
   for (const std::string& warning : warnings) progress.say("warning: " + warning);
 }
 
-// What a run's record says of files that the frames of its states have no part in.
-nlohmann::ordered_json made_elsewhere(const nlohmann::json& record) {
-  nlohmann::ordered_json kept = nlohmann::ordered_json::object();
-  for (const char* key : {"strip_columns", "caches", "arrays"})
-    if (record.contains(key)) kept[key] = record[key];
-  return kept;
-}
-
 std::vector<render::View> views_of(const RenderOptions& options, const Scene& scene) {
   return options.simulate_only ? std::vector<render::View>() : scene.render.views;
 }
@@ -59,14 +53,21 @@ render::Backend backend_of(const RenderOptions& options) {
   return options.backend ? *options.backend : render::backend_of_environment();
 }
 
-void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, bool states_only) {
+void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, const RenderOptions& options) {
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
-  const std::string strip =
-      report.strip_columns ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns) : "";
-  const std::string main = states_only ? fmt::format("the states of {} frames", report.frames.size())
-                                       : fmt::format("{} images{}", report.images_written, kept);
-  progress.say(fmt::format("wrote {}{}, run.json and index.html to {} in {}", main, strip, folder.path().string(),
-                           time_taken(progress, report)));
+  const std::string strip = report.strip_columns && options.from.empty()
+                                ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns)
+                                : "";
+  const std::string main = options.simulate_only ? fmt::format("the states of {} frames", report.frames.size())
+                                                 : fmt::format("{} images{}", report.images_written, kept);
+  progress.say(fmt::format("{} {}{}, run.json and index.html to {} in {}", options.collect ? "collected" : "wrote",
+                           main, strip, folder.path().string(), time_taken(progress, report)));
+}
+
+// What lacks of what was to be collected, and how it comes about.
+void say_missing(Progress& progress, const std::vector<long>& missing) {
+  progress.say(fmt::format("{} frames are missing or damaged; draw them with --frames {}, and collect again",
+                           missing.size(), list_text(missing)));
 }
 
 // Last bits of frames that are kept may be others than what draws now would give.
@@ -85,7 +86,7 @@ bool draws_stored(const RenderOptions& options) { return !options.from.empty(); 
 
 bool keeps_states(const RenderOptions& options, const OutputFolder& folder) {
   std::error_code error;
-  return options.simulate_only ||
+  return options.simulate_only || options.keep_states ||
          (options.existing == Existing::resume && std::filesystem::is_directory(folder.states(), error));
 }
 
@@ -147,11 +148,11 @@ class SceneRun {
     if (!draws_stored(options_) || before.is_null() || !alike) write_begun_record(bounds_record(survey_.bounds));
     if (!alike) folder_.remove_frames();
     begin();
-    const FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
-    finish(report, before);
+    FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
+    const bool whole = options_.frames_only ? finish_frames(report) : finish(report, before);
     if (report.interrupted_by) return 128 + report.interrupted_by;
     if (report.divergence) throw DivergenceError(*report.divergence);
-    return 0;
+    return whole ? 0 : 1;
   }
 
   void write_begun_record(const nlohmann::ordered_json& bounds) {
@@ -171,10 +172,13 @@ class SceneRun {
     return {folder, run_.scene, run_.choice, run_.simulation.structure().particles()};
   }
 
+  std::unique_ptr<StateSource> open_stored(long first_frame) const {
+    return std::make_unique<StoredStates>(run_, store(options_.from / StateStore::folder_name), first_frame);
+  }
+
   // `go_on`: from what was kept of this very run as well.
   std::unique_ptr<StateSource> open_states(long last_frame, bool go_on) const {
-    if (draws_stored(options_))
-      return std::make_unique<StoredStates>(run_, store(options_.from / StateStore::folder_name));
+    if (draws_stored(options_)) return open_stored(1);
     if (!keeps_states(options_, folder_)) return std::make_unique<SimulatedStates>(run_, last_frame);
     return std::make_unique<KeptStates>(run_, last_frame, store(folder_.states()),
                                         go_on || options_.existing == Existing::resume, progress_);
@@ -184,6 +188,7 @@ class SceneRun {
   // the film then has.
   void look_ahead() {
     const long last_frame = range_of(options_, run_.scene).last;
+    if (options_.frames_only && look_at_record()) return;
     if (const auto bounds = given_bounds(run_)) {
       survey_ = {*bounds, {}};
       states_ = open_states(last_frame, false);
@@ -199,39 +204,90 @@ class SceneRun {
       states_ = std::move(spool);
   }
 
-  FilmPlan plan() const {
-    const FrameRange drawn = range_of(options_, run_.scene);
-    const FrameRange all{1, frame_count(run_.scene)};
-    return {drawn, draws_stored(options_) ? all : drawn, views_of(options_, run_.scene), draws_stored(options_),
-            backend_of(options_)};
+  // What a few frames need is what the simulation has written down; no other states than theirs are read then.
+  bool look_at_record() {
+    const auto bounds = recorded_bounds(earlier_record(options_.from), run_.scene);
+    if (!bounds) return false;
+    survey_ = {*bounds, {}};
+    states_ = open_stored(range_of(options_, run_.scene).first);
+    return true;
   }
 
-  void finish(const FilmReport& report, const nlohmann::json& before) {
+  FilmPlan plan() const {
+    const FrameRange asked = range_of(options_, run_.scene), all{1, frame_count(run_.scene)}, none;
+    return {.drawn = options_.collect ? none : asked,
+            .recorded = draws_stored(options_) ? all : asked,
+            .views = views_of(options_, run_.scene),
+            .only_frames = draws_stored(options_),
+            .only_pictures = options_.frames_only,
+            .backend = backend_of(options_)};
+  }
+
+  // The record stays that of a run that goes on, until it is collected.
+  bool finish_frames(const FilmReport& report) {
+    settle_names(folder_.path());
+    record_.reset();
+    progress_.say(fmt::format("wrote {} images{} to {}", report.images_written,
+                              report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "",
+                              folder_.path().string()));
+    return true;
+  }
+
+  // The frames that are there. What was to be collected was drawn elsewhere, and is looked at.
+  std::vector<long> frames_there(FilmReport& report) const {
+    const FrameRange all{1, frame_count(run_.scene)};
+    if (!options_.collect) return folder_.frames_drawn(all.last);
+    const FoundFrames found = find_frames(folder_.path(), run_.scene, all);
+    for (const std::string& fault : found.faults) progress_.say("warning: " + fault);
+    report.images_written = static_cast<long>(found.whole.size() * run_.scene.render.views.size());
+    return found.whole;
+  }
+
+  // Of the frames that were to be collected, and that the run has.
+  std::vector<long> missing(const FilmReport& report, const std::vector<long>& there) const {
+    std::vector<long> missing;
+    if (!options_.collect) return missing;
+    for (const long frame : missing_frames(range_of(options_, run_.scene), there))
+      if (frame <= report.series.last_frame()) missing.push_back(frame);
+    return missing;
+  }
+
+  // What the page shows of stored states: where all that the run has is drawn, what a direct run's page does.
+  FilmFrames frames_of(const std::vector<long>& there, const FilmReport& report) const {
+    const FrameRange all{1, frame_count(run_.scene)};
+    const bool whole = static_cast<long>(there.size()) == report.series.last_frame();
+    return {all, whole ? std::optional<std::vector<long>>() : there, there.empty()};
+  }
+
+  // False when what was to be collected is not all there.
+  bool finish(FilmReport& report, const nlohmann::json& before) {
     progress_.phase("writing");
     Warnings late = run_warnings(run_, report);
     warn_of_mixture(before, report, late);
     say(progress_, late);
     warnings_.insert(warnings_.end(), late.begin(), late.end());
     const FolderLock lock(folder_.path());
+    nlohmann::ordered_json differing = nlohmann::ordered_json::object();
     FilmFrames frames{range_of(options_, run_.scene), {}, options_.simulate_only};
-    if (draws_stored(options_)) frames.there = folder_.frames_drawn(frame_count(run_.scene));
-    RunPage page = describe_run(run_, report, frames, warnings_, progress_);
-    nlohmann::ordered_json inherited = nlohmann::ordered_json::object();
+    std::vector<long> lacking;
     if (draws_stored(options_)) {
-      inherited = made_elsewhere(earlier_record(folder_.path()));
-      inherited["drawn"] = page.listed;
-      if (const auto& columns = inherited["strip_columns"]; columns.is_number_integer()) page.strip_columns = columns;
-      if (std::error_code error; std::filesystem::is_regular_file(folder_.file(RunFile::glb), error)) show_model(page);
-    } else if (options_.simulate_only) {
-      inherited["views"] = nlohmann::ordered_json::array();
+      add_made_before(earlier_record(folder_.path()), report);
+      const std::vector<long> there = frames_there(report);
+      lacking = missing(report, there);
+      frames = frames_of(there, report);
+      if (frames.there) differing["drawn"] = there;
     }
-    write_page(page);
+    if (options_.simulate_only) differing["views"] = nlohmann::ordered_json::array();
+    if (options_.keep_states) report.images_written += std::exchange(report.images_kept, 0);
+    write_page(describe_run(run_, report, frames, warnings_, progress_));
     settle_names(folder_.path());
     // Last, so that its times leave nothing out.
-    write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, inherited);
+    write_finished_record(folder_.file(RunFile::record), run_, survey_, report, progress_, differing);
     settle_names(folder_.path());
     record_.reset();
-    say_end(progress_, report, folder_, options_.simulate_only);
+    if (!lacking.empty()) say_missing(progress_, lacking);
+    say_end(progress_, report, folder_, options_);
+    return lacking.empty();
   }
 
   const Run& run_;

@@ -20,6 +20,9 @@ struct RenderOptions {
   std::vector<FrameSpan> frames;  // empty: all
   std::filesystem::path from;     // a run whose states are drawn; empty: simulate
   bool simulate_only = false;     // keep the states, and draw nothing
+  bool frames_only = false;       // of `from`: no record and no page, which somebody will collect
+  bool collect = false;           // of `from`: the record and the page of frames that are there, and draw nothing
+  bool keep_states = false;       // `resume` shall go on from there, and what it finds drawn counts as drawn by it
   Existing existing = Existing::refuse;
   int threads = 0;                              // 0: one per core
   std::optional<render::Backend> backend = {};  // that draws; none: BILLOW_BACKEND's, or automatic
@@ -39,8 +42,9 @@ FrameRange range_of(const RenderOptions& options, const Scene& scene);
 void check_backend(const RenderOptions& options);
 
 /// Runs a scene that has been read and whose step has been chosen, as further phases of `progress`; of options.scene
-/// only the name is used, .overrides and .progress not at all. Returns 0, or 128 + a signal that ended it. Throws
-/// DivergenceError once all that came before is written, InputError, OutputError.
+/// only the name is used, .overrides and .progress not at all. Returns 0, 1 where frames to be collected are missing,
+/// or 128 + a signal that ended it. Throws DivergenceError once all that came before is written, InputError,
+/// OutputError.
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,
                  const RenderOptions& options, Progress& progress);
 

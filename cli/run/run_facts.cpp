@@ -87,6 +87,12 @@ void add_facts_of_film(const Run& run, const FilmReport& report, const Progress&
   if (!report.gl.empty()) facts.emplace_back("Drawn by", fmt::format("{}: {}", report.backend, report.gl));
 }
 
+// Has the page show the model that the run's folder holds.
+void show_model(RunPage& page) {
+  page.glb = word_of(RunFile::glb);
+  page.glb_script = word_of(RunFile::glb_script);
+}
+
 // How the missing frames are had.
 std::string how_to_go_on(const Run& run) {
   if (run.command.find(" --from ") != std::string::npos) return "The same command draws the others.";
@@ -186,11 +192,6 @@ std::string time_taken(const Progress& progress, const FilmReport& report) {
                             report.simulate.wall, report.draw.wall, report.encode.wall);
   }
   return fmt::format("{:.2f} s ({})", progress.wall(), phases);
-}
-
-void show_model(RunPage& page) {
-  page.glb = word_of(RunFile::glb);
-  page.glb_script = word_of(RunFile::glb_script);
 }
 
 RunPage describe_run(const Run& run, const FilmReport& report, const FilmFrames& frames,

@@ -34,7 +34,4 @@ RunPage describe_run(const Run& run, const FilmReport& report, const FilmFrames&
 RunPage describe_unfinished_run(const Run& run, SuddenEnd how, const std::string& reason, const FilmFrames& frames,
                                 const std::vector<std::string>& warnings);
 
-/// Has the page show the model that the run's folder holds (caches/scene.glb).
-void show_model(RunPage& page);
-
 }  // namespace billow::cli

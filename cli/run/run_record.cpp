@@ -157,6 +157,51 @@ Json bounds_record(const render::RunBounds& bounds) {
   return {{"low", list(bounds.box.min())}, {"high", list(bounds.box.max())}, {"velocity_scale", bounds.velocity_scale}};
 }
 
+std::optional<render::RunBounds> recorded_bounds(const nlohmann::json& record, const Scene& scene) {
+  try {
+    const bool ended = record.at("status") == "done" || record.at("status") == "diverged";
+    if (!ended || record.at("billow") != version() || record.at("scene").at("hash") != scene.hash) return std::nullopt;
+    const nlohmann::json& bounds = record.at("bounds");
+    const auto corner = [&](const char* key) {
+      const nlohmann::json& list = bounds.at(key);
+      return Eigen::Vector3d(list.at(0), list.at(1), list.at(2));
+    };
+    return render::RunBounds{{corner("low"), corner("high")}, bounds.at("velocity_scale")};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+namespace {
+
+WrittenArray array_of(const nlohmann::json& json) {
+  return {json.at("file"), json.at("dtype"), json.at("shape"), json.at("axes"), json.at("unit")};
+}
+
+std::optional<CacheRecord> cache_of(const nlohmann::json& json) {
+  for (const auto& [word, format] : words(CacheFormat())) {
+    if (json.at("format") != word) continue;
+    CacheRecord cache{format, json.value("name", ""), json.at("file").get<std::string>(), json.at("first_frame"),
+                      json.at("frames")};
+    if (json.contains("vertices")) cache.vertices = json["vertices"];
+    return cache;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+// A record that another version wrote, or a hand, says as much as can be read of it.
+void add_made_before(const nlohmann::json& record, FilmReport& report) {
+  try {
+    report.strip_columns = record.at("strip_columns");
+    for (const nlohmann::json& array : record.at("arrays")) report.arrays.push_back(array_of(array));
+    for (const nlohmann::json& json : record.at("caches"))
+      if (auto cache = cache_of(json)) report.caches.push_back(*std::move(cache));
+  } catch (const nlohmann::json::exception&) {
+  }
+}
+
 Json begun_record(const Run& run, const Json& bounds) {
   Json json = begun(run.scene, run.command, running);
   if (!bounds.is_null()) json["bounds"] = bounds;
@@ -190,7 +235,7 @@ namespace {
 
 // Everything but the frames.
 Json finished(const Run& run, const Survey& survey, const FilmReport& report, const Progress& progress,
-              const Json& inherited) {
+              const Json& differing) {
   const char* status = report.divergence ? "diverged" : report.interrupted_by ? interrupted : "done";
   Json json = begun(run.scene, run.command, status);
   if (report.divergence) json["divergence"] = *report.divergence;
@@ -210,7 +255,7 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
                               {"axes", array.axes},
                               {"unit", array.unit}});
   json["caches"] = cache_records(report);
-  for (const auto& [key, value] : inherited.items()) json[key] = value;
+  for (const auto& [key, value] : differing.items()) json[key] = value;
   json["seconds"] = seconds_record(report, progress);
   json["processor_seconds"] = processor_record(survey, report);
   json["resident_kib"] = {{"after_100_frames", report.memory.settled}, {"end", report.memory.end}};
@@ -224,9 +269,9 @@ Json finished(const Run& run, const Survey& survey, const FilmReport& report, co
 // The frames go through memory one by one, so that a film's length does not show there.
 void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
                            const FilmReport& report, const Progress& progress,
-                           const nlohmann::ordered_json& inherited) {
+                           const nlohmann::ordered_json& differing) {
   AtomicFile output(file);
-  const std::string head = json_text(finished(run, survey, report, progress, inherited), 1);
+  const std::string head = json_text(finished(run, survey, report, progress, differing), 1);
   output.append(std::string_view(head).substr(0, head.size() - 2));  // without "\n}"
   output.append(",\n \"frames\": [");
   const char* separator = "\n  ";

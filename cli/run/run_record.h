@@ -15,6 +15,12 @@ namespace billow::cli {
 
 /// What all pictures of a run share. Numbers read back to the bit.
 nlohmann::ordered_json bounds_record(const render::RunBounds& bounds);
+/// The bounds that the record of a run which has ended says, as those of this very scene, drawn by this version;
+/// nothing where it says none.
+std::optional<render::RunBounds> recorded_bounds(const nlohmann::json& record, const Scene& scene);
+
+/// Puts into `report` what the record says of files that frames of states have no part in: strip, arrays and caches.
+void add_made_before(const nlohmann::json& record, FilmReport& report);
 
 /// The record of a run that has only begun, enough for --resume to know it by. `bounds` are those of the pictures that
 /// are there, null where none are known.
@@ -38,8 +44,8 @@ class RunningRecord {
 };
 
 /// Writes the record of a run that ended, whole, diverged or interrupted, to `file`: whole or not at all. Its times are
-/// those of `progress` until now; what is `inherited` stands for what this process did not make. Throws OutputError.
+/// those of `progress` until now; what is `differing` stands in place of what it would say. Throws OutputError.
 void write_finished_record(const std::filesystem::path& file, const Run& run, const Survey& survey,
-                           const FilmReport& report, const Progress& progress, const nlohmann::ordered_json& inherited);
+                           const FilmReport& report, const Progress& progress, const nlohmann::ordered_json& differing);
 
 }  // namespace billow::cli

@@ -23,6 +23,8 @@ class Schedule {
   double next() const;
   /// How many have been taken.
   long taken() const { return taken_; }
+  /// Takes as many as there are before the one of this number, from 1.
+  void pass_to(long number) { taken_ = number - 1; }
   /// Takes the next one if it is due at `time`; says whether it was.
   bool take(double time);
 

@@ -99,12 +99,13 @@ RunFacts KeptStates::facts() const {
           checkpoint_->solver.largest_strain};
 }
 
-StoredStates::StoredStates(const Run& run, StateStore store)
+StoredStates::StoredStates(const Run& run, StateStore store, long first)
     : store_(std::move(store)), frames_(frame_schedule(run.scene, frame_count(run.scene))) {
   const std::string folder = store_.folder().string();
   check_stored_states(store_.folder().parent_path());
   store_.holds_this_run();
   record_ = store_.read_record();
+  frames_.pass_to(first);
   const long wanted = frame_count(run.scene);
   if (!record_.finished)
     throw InputError(

@@ -52,8 +52,9 @@ class KeptStates : public StateSource {
 /// The frames of a finished store, and no other moments.
 class StoredStates : public StateSource {
  public:
-  /// Throws InputError when the store is of another motion, or has not all of the scene's frames.
-  StoredStates(const Run& run, StateStore store);
+  /// From frame `first` on. Throws InputError when the store is of another motion, or has not all of the scene's
+  /// frames.
+  StoredStates(const Run& run, StateStore store, long first);
   std::optional<sim::WatchedRun::Sample> next() override;
   RunFacts facts() const override { return record_.facts; }
 

@@ -29,7 +29,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_again{20}, ask_again{500};
-constexpr std::chrono::seconds grace{2};  // for a child to end by itself
 
 // A log begins anew: one of an earlier run, or what else has its name, is not written into.
 int open_log(const std::filesystem::path& file) {
@@ -76,7 +75,7 @@ int exit_status(int wait_status) {
 /// The children that are running. Those that still are when it goes out of scope are ended.
 class Children {
  public:
-  Children() = default;
+  explicit Children(std::chrono::seconds grace) : grace_(grace) {}
   ~Children() { end_all(SIGTERM); }
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
@@ -121,7 +120,7 @@ class Children {
 
   void end_all(int signal) {
     for (const auto& [process, child] : running_) kill(process, signal);
-    const Clock::time_point end = Clock::now() + grace;
+    const Clock::time_point end = Clock::now() + grace_;
     while (count() > 0 && Clock::now() < end) wait_a_moment();
     for (const int number : numbers()) kill_run(number);
   }
@@ -131,14 +130,18 @@ class Children {
     int number = 0;
     Clock::time_point start;
   };
+  std::chrono::seconds grace_;      // for a child to end by itself
   std::map<pid_t, Child> running_;  // by process
 };
 
 /// The runs that are not done yet, and the children at some of them.
 class JobList {
  public:
-  JobList(const std::vector<int>& numbers, int jobs, JobKeeper& keeper)
-      : jobs_(static_cast<std::size_t>(jobs)), keeper_(keeper), next_(numbers.begin(), numbers.end()) {}
+  JobList(const std::vector<int>& numbers, int jobs, std::chrono::seconds grace, JobKeeper& keeper)
+      : jobs_(static_cast<std::size_t>(jobs)),
+        keeper_(keeper),
+        next_(numbers.begin(), numbers.end()),
+        children_(grace) {}
 
   void run() {
     while (!next_.empty() || !held_.empty() || children_.count() > 0) {
@@ -188,6 +191,8 @@ class JobList {
 
 }  // namespace
 
-void run_jobs(const std::vector<int>& numbers, int jobs, JobKeeper& keeper) { JobList(numbers, jobs, keeper).run(); }
+void run_jobs(const std::vector<int>& numbers, int jobs, std::chrono::seconds grace, JobKeeper& keeper) {
+  JobList(numbers, jobs, grace, keeper).run();
+}
 
 }  // namespace billow::cli

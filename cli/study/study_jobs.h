@@ -1,6 +1,7 @@
 // Runs of a study as child processes, several at a time: one that crashes takes no other down.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,8 +45,8 @@ class JobKeeper {
 
 /// Does the runs `numbers` in their order, at most `jobs` at a time. No child outlives this call, however it ends, nor
 /// this process, even where that is killed. A signal to this process is handed on to the children, and no more are
-/// started; those that do not end within two seconds are killed. Throws OutputError when a log cannot be written,
+/// started; those that do not end within `grace` are killed. Throws OutputError when a log cannot be written,
 /// std::system_error when no process can be started, and what `keeper` throws.
-void run_jobs(const std::vector<int>& numbers, int jobs, JobKeeper& keeper);
+void run_jobs(const std::vector<int>& numbers, int jobs, std::chrono::seconds grace, JobKeeper& keeper);
 
 }  // namespace billow::cli

@@ -19,6 +19,8 @@ struct StudyPlan {
   std::vector<std::string> hash;  // per run, what its result must carry to count; see read_hash()
   bool untrusted = false;         // no file outside of the study's folder is read
   render::Backend backend = {};   // that draws its runs
+  int threads = 0;                // of a run; 0: one per core
+  bool resume = false;            // runs keep their states while they go on, for those that follow one that was stopped
 
   const StudyRun& run(int number) const { return runs[static_cast<std::size_t>(number) - 1]; }
   std::filesystem::path folder_of(int number) const { return run_folder(folder, study, run(number)); }

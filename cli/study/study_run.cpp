@@ -8,12 +8,14 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <thread>
 
 #include "base/error.h"
 #include "base/process_start.h"
 #include "cli/run/interrupt.h"
 #include "cli/run/measured_run.h"
 #include "cli/run/render_scene.h"
+#include "cli/run/state_store.h"
 #include "cli/run/watched_scene.h"
 #include "cli/scene/hash.h"
 #include "cli/scene/scene_parts.h"
@@ -107,18 +109,39 @@ void add_error(RunResult& result, const Study& study, const StudyRun& run, const
   add(result, "reference_energy", error.reference_energy);
 }
 
+// Whether the film was begun by another process, and has states to go on from.
+bool was_begun(const std::filesystem::path& film, const Scene& scene, const Simulation& simulation,
+               const StepChoice& choice) {
+  const StateStore states(film / StateStore::folder_name, scene, choice, simulation.structure().particles());
+  try {
+    return is_of_scene(film, scene) && states.holds_this_run();
+  } catch (const InputError&) {
+    return false;  // they are of another version, or damaged
+  }
+}
+
 void render_run(const Study& study, const StudyRun& run, const Scene& scene, const Simulation& simulation,
-                const StepChoice& choice, const std::filesystem::path& folder, const render::Backend& backend,
+                const StepChoice& choice, const std::filesystem::path& folder, const RunConduct& conduct,
                 Progress& progress) {
   RenderOptions options;
-  options.backend = backend;
+  options.backend = conduct.backend;
   options.scene = study.scene;
   options.output = folder / "film";
-  options.existing = Existing::overwrite;
+  options.existing = was_begun(options.output, scene, simulation, choice) ? Existing::resume : Existing::overwrite;
+  options.threads = conduct.threads;
+  options.keep_states = conduct.keep_states || options.existing == Existing::resume;
   make_folder_within(folder, "film");
   options.command = command_of(study, run);
-  const int status = render_scene(scene, simulation, choice, options, progress);
-  if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));
+  const std::filesystem::path states = options.output / StateStore::folder_name;
+  try {
+    const int status = render_scene(scene, simulation, choice, options, progress);
+    if (interrupted_by() != 0) return;
+    if (status != 0) throw std::runtime_error(fmt::format("the rendering was stopped with status {}", status));
+  } catch (const DivergenceError&) {  // a film that is as whole as it will be
+    if (options.keep_states) remove_states(states);
+    throw;
+  }
+  if (options.keep_states) remove_states(states);
 }
 
 // A divergence is a result.
@@ -156,7 +179,9 @@ std::string command_of(const Study& study, const StudyRun& run) {
 }
 
 RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder,
-                      const render::Backend& backend) {
+                      const RunConduct& conduct) {
+  const std::size_t threads = conduct.threads > 0 ? conduct.threads : std::max(1u, std::thread::hardware_concurrency());
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   Progress progress(ProgressStyle::none, process_start());
   const Scene scene = read_scene(study.scene, overrides_of(study, run), progress);
   RunResult result{RunStatus::done, run_hash(study, scene), command_of(study, run), "", scene.effective, {}};
@@ -175,7 +200,7 @@ RunResult perform_run(const Study& study, const StudyRun& run, const std::filesy
   });
   // What came before it diverged can be looked at.
   or_diverged(result, [&] {
-    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, backend, progress);
+    if (study.measures.render) render_run(study, run, scene, simulation, choice, folder, conduct, progress);
   });
   if (interrupted_by() == 0) write_result(folder, result);
   return result;

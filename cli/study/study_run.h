@@ -17,9 +17,17 @@ std::string run_hash(const Study& study, const Scene& scene);
 /// "billow render scenes/drape.yaml -D solver.method=rk4": the run by hand.
 std::string command_of(const Study& study, const StudyRun& run);
 
-/// Does what the study's measures ask for, in `folder`, and writes result.json there; `backend` draws what is drawn. A
-/// divergence is a result. Throws InputError on a bad scene, OutputError.
+/// How a run is gone about; its result does not depend on it.
+struct RunConduct {
+  int threads = 0;               // 0: one per core
+  bool keep_states = false;      // of its film, until that is whole
+  render::Backend backend = {};  // that draws its film
+};
+
+/// Does what the study's measures ask for, in `folder`, and writes result.json there, unless a signal asks for the end.
+/// A divergence is a result. Where an earlier process was stopped and has kept states of its film, goes on from there.
+/// Throws InputError on a bad scene, OutputError.
 RunResult perform_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder,
-                      const render::Backend& backend);
+                      const RunConduct& conduct);
 
 }  // namespace billow::cli

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <map>
 #include <set>
@@ -80,6 +81,8 @@ class SharedRuns : public JobKeeper {
         "billow", "study", plan_.study.file.string(), "-o", plan_.folder.string(), "--perform", std::to_string(number)};
     words.insert(words.end(), {"--backend", text_of(plan_.backend)});
     if (plan_.untrusted) words.push_back("--untrusted");
+    if (plan_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(plan_.threads)});
+    if (plan_.resume) words.push_back("--resume");
     return {words, plan_.log_of(number)};
   }
 
@@ -141,7 +144,9 @@ void do_runs(const StudyPlan& plan, const std::vector<DueRun>& due, int jobs) {
   SharedRuns runs(plan, due);
   std::vector<int> numbers;
   for (const DueRun& run : due) numbers.push_back(run.number);
-  run_jobs(numbers, jobs, runs);
+  // A run that will be gone on with may draw its frame to the end and write down how far it has come.
+  constexpr std::chrono::seconds short_grace{2}, long_grace{60};
+  run_jobs(numbers, jobs, plan.resume ? long_grace : short_grace, runs);
 }
 
 }  // namespace billow::cli
