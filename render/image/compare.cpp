@@ -112,6 +112,7 @@ struct RowComparison::Differences {
       : shape(shape),
         options(options),
         radius(std::max(options.edge, 1)),
+        of_255(255.0 / white_of(shape.depth)),
         a(radius),
         b(radius),
         counted(shape.width, 2 * radius + 1),
@@ -175,8 +176,11 @@ struct RowComparison::Differences {
     const double plain = difference_of(value_a, value_b);
     const double difference = options.edge > 0 ? std::min(plain_or_infinite(plain), unexplained(x, c, value_a, value_b))
                                                : plain_or_infinite(plain);
-    const double apart = share_of_white(shape.depth, shape.channels[c], difference, value_a, value_b);
-    const double before = share_of_white(shape.depth, shape.channels[c], plain_or_infinite(plain), value_a, value_b);
+    const auto share = [&](double of) {
+      return shape.depth != Depth::floats ? of * of_255
+                                          : share_of_white(shape.depth, shape.channels[c], of, value_a, value_b);
+    };
+    const double apart = share(difference);
     ChannelComparison& channel = result.channels[c];
     if (std::isfinite(difference)) {
       channel.max = std::max(channel.max, difference);
@@ -187,7 +191,7 @@ struct RowComparison::Differences {
     }
     if (apart > options.threshold)
       ++channel.over, over[x] = State::over;
-    else if (before > options.threshold && over[x] == State::near)
+    else if (options.edge > 0 && over[x] == State::near && share(plain_or_infinite(plain)) > options.threshold)
       over[x] = State::explained;
     worst[x] = std::max(worst[x], apart);
   }
@@ -239,6 +243,7 @@ struct RowComparison::Differences {
   const RowShape& shape;
   ComparisonOptions options;
   int radius;
+  double of_255;  // what a step of the values is
   RowWindow a, b;
   Eigen::ArrayXXd counted;
   std::vector<State> over;    // of the pixels of a row

@@ -41,12 +41,13 @@ int place_of(const std::vector<RowChannel>& channels, std::string_view name) {
 }
 
 void read_png_values(PngRows& rows, ValueRow& row) {
-  const std::uint8_t* byte = rows.next();
-  for (int x = 0; x < rows.width(); ++x)
-    for (int c = 0; c < rows.channels(); ++c) {
-      const int high = *byte++;
-      row(x, c) = rows.bits() == 8 ? high : 256 * high + *byte++;
-    }
+  const int channels = rows.channels(), bytes = rows.bits() / 8;
+  const std::uint8_t* const first = rows.next();
+  for (int c = 0; c < channels; ++c) {
+    const std::uint8_t* value = first + bytes * c;
+    for (int x = 0; x < rows.width(); ++x, value += bytes * channels)
+      row(x, c) = bytes == 1 ? value[0] : 256 * value[0] + value[1];
+  }
 }
 
 RowShape shape_of_png(const PngRows& rows) {
@@ -127,13 +128,14 @@ std::vector<std::uint8_t> seen_row(const RowShape& shape, const ValueRow& row) {
   std::vector<std::uint8_t> seen(3 * static_cast<std::size_t>(shape.width));
   const auto colours = shape.colours();
   if (!colours) return seen;
+  const double of_255 = 255.0 / white_of(shape.depth);
   const auto encoded = [&](double value) {
-    if (shape.depth != Depth::floats) return value * 255.0 / white_of(shape.depth);
+    if (shape.depth != Depth::floats) return value * of_255;
     return std::isnan(value) ? 0.0 : 255.0 * linear_to_srgb(std::clamp(value, 0.0, 1.0));
   };
-  for (int x = 0; x < shape.width; ++x)
-    for (int c = 0; c < 3; ++c)
-      seen[3 * x + c] = static_cast<std::uint8_t>(std::lround(encoded(row(x, (*colours)(c)))));
+  for (int c = 0; c < 3; ++c)
+    for (int x = 0; x < shape.width; ++x)  // rounded: it is not negative
+      seen[3 * x + c] = static_cast<std::uint8_t>(encoded(row(x, (*colours)(c))) + 0.5);
   return seen;
 }
 

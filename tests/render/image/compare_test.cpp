@@ -249,10 +249,9 @@ TEST(CompareFloats, TakeNanAndInfinityForValues) {
   EXPECT_EQ(c.rmse, 0.5);  // of what is finite
   EXPECT_FALSE(within_tolerance(c, {.worst = 255, .share = 1}));
   EXPECT_FALSE(within_tolerance(c, {.metrics = {{Metric::rmse, 10.0}}}));
-  EXPECT_EQ(
-      difference_text(c, 3),
-      "4 px over 0.0118 (100 %), worst infinite in Z at (0, 0): nan and 1, all within 1 px of an edge, 3 values NaN "
-      "or infinite in one alone");
+  EXPECT_EQ(difference_text(c, 3),
+            "4 px over 0.0118 (100 %), worst infinite in Z at (0, 0): nan and 1, 1 off any edge, 3 values NaN "
+            "or infinite in one alone");
   // A silhouette before nothing, a pixel aside.
   EXPECT_EQ(compare_floats({inf, inf, 2.0, 2.0}, {inf, 2.0, 2.0, 2.0}, {.edge = 1}).over, 0);
 }

@@ -87,12 +87,12 @@ TEST_F(Rows, GiveOpenExrsChannelsByName) {
 }
 
 TEST_F(Rows, TakeHashesOfNamesForIdentities) {
-  DataImage image = data(1, 1, {"id00.R", "id00.G", "id01.B", "identity.R"});
+  DataImage image = data(1, 1, {"id00.G", "id00.R", "id01.B", "identity.R"});
   image.notes = {{"cryptomatte/1234567/name", "id"}};
   write_exr(path("a.exr"), image);
   std::vector<bool> exact;
   for (const RowChannel& channel : ImageRows(path("a.exr")).shape().channels) exact.push_back(channel.exact);
-  EXPECT_THAT(exact, ElementsAre(true, false, true, false));
+  EXPECT_THAT(exact, ElementsAre(false, true, true, false));
 }
 
 TEST_F(Rows, SayWhatIsWrongWithAnOpenExrFile) {
@@ -163,7 +163,7 @@ TEST_F(Rows, PutEightBitsOnTheScaleOfSixteen) {
 TEST(SeenRow, EncodesFloatsAndClampsThem) {
   const RowShape shape{4, 1, 0, 0, Depth::floats, {{"Y"}}};
   ValueRow row(4, 1);
-  row << 0.0, 0.2140411, 7.0, std::numeric_limits<double>::quiet_NaN();
+  row << 0.0, 0.2158605, 7.0, std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(seen_row(shape, row), ElementsAre(0, 0, 0, 128, 128, 128, 255, 255, 255, 0, 0, 0));
 }
 
