@@ -213,12 +213,14 @@
     const { channels } = layer_shown(), { white } = pictures[current].values;
     const at = (side, name) =>
       side && pixel.x < side.width && pixel.y < side.height ? side.planes[name][pixel.y * side.width + pixel.x] : undefined;
-    const text = (value) => (value === undefined ? "nothing" : Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value));
+    const text = (value, digits = 6) =>
+      value === undefined ? "nothing" : Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : String(value);
     const wide = Math.max(...channels.map((name) => name.length));
     const lines = channels.map((name) => {
       const a = at(numbers.a, name), b = at(numbers.b, name);
       const apart = a === undefined || b === undefined ? "" : `   apart ${a === b ? 0 : text(Math.abs(a - b))}`;
-      return `${name.padEnd(wide)}   A ${text(a)}   B ${text(b)}${apart}`;
+      const digits = a !== b && text(a) === text(b) ? 10 : 6; // as many as tell them apart
+      return `${name.padEnd(wide)}   A ${text(a, digits)}   B ${text(b, digits)}${apart}`;
     });
     return [`(${pixel.x}, ${pixel.y})${white === 1 ? "" : ` of ${white}`}`, ...lines].join("\n");
   }

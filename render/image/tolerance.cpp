@@ -75,9 +75,11 @@ std::string worst_text(const Comparison& c) {
   const std::string at = fmt::format("at ({}, {})", c.worst_x, c.worst_y);
   if (c.depth == Depth::floats) {
     const double difference = std::abs(c.worst_a - c.worst_b);
-    return fmt::format("worst {} in {} {}: {:.6g} and {:.6g}",
+    // As many digits as tell them apart.
+    const int digits = fmt::format("{:.6g}", c.worst_a) == fmt::format("{:.6g}", c.worst_b) ? 10 : 6;
+    return fmt::format("worst {} in {} {}: {:.{}g} and {:.{}g}",
                        std::isfinite(difference) ? fmt::format("{:.4g}", difference) : "infinite", c.worst_channel, at,
-                       c.worst_a, c.worst_b);
+                       c.worst_a, digits, c.worst_b, digits);
   }
   const double steps = c.max * 257.0;
   const bool is_whole = c.depth == Depth::bits8 || std::abs(c.max - std::round(c.max)) < 1e-6;
