@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "render/image/big_endian.h"
 
 namespace billow::render {
 namespace {
@@ -83,10 +84,6 @@ Stream open_to_read(const std::filesystem::path& file) {
   Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!stream) refuse(file, fmt::format("cannot open the image: {}", std::strerror(errno)));
   return stream;
-}
-
-std::uint32_t big_endian(const png_byte* bytes) {
-  return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 8 | bytes[3];
 }
 
 std::uintmax_t bytes_of(std::FILE* stream) {
