@@ -18,6 +18,7 @@
 #include "base/suggest.h"
 #include "cli/command/build_facts.h"
 #include "cli/command/commands.h"
+#include "cli/command/error_report.h"
 #include "cli/run/interrupt.h"
 #include "cli/text/command_text.h"
 #include "cli/text/terminal.h"
@@ -83,7 +84,7 @@ struct Request {
   SheetOptions sheet;
   SpreadOptions spread;
   std::vector<std::string> overrides, metrics;
-  std::string frames, runs, caches, pixels, backend;
+  std::string frames, runs, caches, pixels, channel, worst, backend;
   bool overwrite = false, resume = false, untrusted = false, version_as_json = false;
   std::string_view commit;
   std::function<int()> command;
@@ -105,8 +106,18 @@ void set_command(Request& r, const std::filesystem::path& named, std::function<i
   };
 }
 
-void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request& request) {
-  add_named_file(command, "SCENE", scene, "Scene file (YAML)", request);
+// A run's record names its scene, and its output folder is named after it.
+void require_scene_file(const std::filesystem::path& scene) {
+  if (scene == "-")
+    throw CLI::ValidationError(
+        "SCENE",
+        "a run needs a file to be repeated from, and '-' is standard input; save the scene as a file "
+        "('check', 'structure' and 'stability' take '-')");
+}
+
+void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request& request,
+                       const std::string& help = "Scene file (YAML), or - for standard input") {
+  add_named_file(command, "SCENE", scene, help, request);
   command.add_option("-D", request.overrides, "Set a scene value: -D solver.step=0.001 (repeatable)")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
@@ -179,7 +190,7 @@ void check_spread(const Request& r) {
 
 // What running a scene takes, drawn or not.
 void add_run_options(CLI::App& c, Request& r) {
-  add_scene_options(c, r.render.scene, r);
+  add_scene_options(c, r.render.scene, r, "Scene file (YAML)");
   c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
       ->type_name("DIR");
   c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
@@ -195,6 +206,7 @@ void add_run_options(CLI::App& c, Request& r) {
              "Wait for the disk before a file gets its name: power cuts leave whole files");
   add_progress(c, r.render.progress);
   c.final_callback([&r] {
+    require_scene_file(r.render.scene);
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
     if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
@@ -245,6 +257,7 @@ void add_scene_command(CLI::App& app, Request& r, const std::string& name, const
   CLI::App& c = *app.add_subcommand(name, help);
   add_scene_options(c, r.scene.scene, r);
   if (with_json) c.add_flag("--json", r.scene.json, "Print JSON");
+  add_progress(c, r.scene.progress);
   c.final_callback([&r, command] {
     for (const std::string& text : r.overrides) r.scene.overrides.push_back(parse_override(text));
     set_command(r, r.scene.scene, [&r, command] { return command(r.scene); });
@@ -268,6 +281,7 @@ void add_stability(CLI::App& app, Request& r) {
   c.add_option("--at", r.stability.time, "Linearise the state that the scene reaches at this time (default: at rest)")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
+  add_progress(c, r.stability.scene.progress);
   c.final_callback([&r] {
     if (!std::isfinite(r.stability.time)) throw CLI::ValidationError("--at", "needs a finite time");
     for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
@@ -283,14 +297,25 @@ void add_filter(CLI::App& app, Request& r) {
   c.add_option("--body", r.filter.body, "Whose waves (default: the scene's first body)")->type_name("NAME");
   c.add_option("-o,--output", r.filter.output, "Folder to write to (default: out/ and the scene's name with -filter)")
       ->type_name("DIR");
+  add_progress(c, r.filter.scene.progress);
   c.final_callback([&r] {
+    if (!r.filter.scene.json && r.filter.output.empty()) require_scene_file(r.filter.scene.scene);
     for (const std::string& text : r.overrides) r.filter.scene.overrides.push_back(parse_override(text));
     set_command(r, r.filter.scene.scene, [&r] { return filter_command(r.filter); });
   });
 }
 
+// "3" of 255, or "0.1%"; nothing leaves `of_255` as it is.
+void set_share_of_white(const std::string& option, const std::string& text, double& of_255) {
+  if (!text.empty() && !read_share_of_white(text, of_255))
+    throw CLI::ValidationError(
+        option, fmt::format("'{}' is neither a number from 0 to 255 nor a share of white like 0.1%", text));
+}
+
 void set_tolerance(Request& r) {
   ImageTolerance& tolerance = r.compare.tolerance;
+  set_share_of_white("--channel", r.channel, tolerance.what.threshold);
+  set_share_of_white("--worst", r.worst, tolerance.allowed.worst);
   if (!r.pixels.empty() && !read_pixels(r.pixels, tolerance.allowed))
     throw CLI::ValidationError(
         "--pixels", fmt::format("'{}' is neither a number of pixels like 250 nor a share like 0.5%", r.pixels));
@@ -300,17 +325,18 @@ void set_tolerance(Request& r) {
 }
 
 void add_compare(CLI::App& app, Request& r) {
-  CLI::App& c = *app.add_subcommand("compare", "Compare two images or two folders of images");
+  CLI::App& c = *app.add_subcommand("compare", "Compare two images (PNG, OpenEXR) or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
   c.add_option("B", r.compare.b, "Image or folder")->required();
   c.add_option("--diff", r.compare.difference, "Write the difference image, times 8")->type_name("FILE");
-  c.add_option("--channel", r.compare.tolerance.what.threshold,
-               "A pixel differs when a channel does by more (default: 3)")
-      ->check(CLI::Range(0, 255))
-      ->type_name("N");
+  c.add_option("--channel", r.channel,
+               "A pixel differs when a channel does by more: of 255, or of white, which is 1 in EXR (default: 3)")
+      ->type_name("N|N%");
   c.add_option("--pixels", r.pixels, "So many pixels, or so much of all, may differ (default: 1%)")->type_name("N|N%");
-  c.add_option("--worst", r.compare.tolerance.allowed.worst, "No channel may differ by more (default: 16)")
-      ->check(CLI::Range(0, 255))
+  c.add_option("--worst", r.worst, "No channel may differ by more (default: 16)")->type_name("N|N%");
+  c.add_option("--edge", r.compare.tolerance.what.edge,
+               "Differences that edges up to N pixels aside explain are none, 0 to 4 (default: 0)")
+      ->check(CLI::Range(0, render::largest_edge))
       ->type_name("N");
   c.add_option("--metric", r.metrics,
                "Judge by max, rmse, psnr, ssim or flip instead: at most LIMIT, for psnr and ssim at least (repeatable)")
@@ -454,12 +480,35 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return fmt::format("unknown command '{}'{}", shortened(argv[1]), suggestion(argv[1], known, "commands are"));
 }
 
-int report(std::string_view message, int status) {
-  say_message(message);
-  return status;
-}
+/// Says errors: to people, or with --progress json to programs, also of arguments that are wrong themselves.
+class ErrorReport {
+ public:
+  ErrorReport(int argc, char** argv) : arguments_(argv + std::min(argc, 1), argv + argc) {
+    for (std::size_t k = 0; k < arguments_.size(); ++k)
+      if (arguments_[k] == "--progress=json" || (arguments_[k] == "json" && k > 0 && arguments_[k - 1] == "--progress"))
+        as_json_ = true;
+  }
 
-int run_command(const std::function<int()>& command) {
+  int operator()(std::string_view message, int status) const {
+    if (as_json_)
+      say_json(error_json(message, status, arguments_));
+    else
+      say_message(message);
+    return status;
+  }
+
+  // What CLI11 says of arguments, with its own next step in a second line.
+  int usage(const CLI::ParseError& error, const std::string& text) const {
+    if (!as_json_) return say_text(text), exit_usage;
+    return (*this)(std::string(error.what()) + "; run with --help for more information", exit_usage);
+  }
+
+ private:
+  std::vector<std::string> arguments_;
+  bool as_json_ = false;
+};
+
+int run_command(const std::function<int()>& command, const ErrorReport& report) {
   try {
     return command();
   } catch (const InputError& error) {
@@ -481,7 +530,7 @@ int run_command(const std::function<int()>& command) {
 
 // `status`, of a command that has printed what it had to say, unless that went nowhere: an answer that nobody got is
 // none.
-int status_of_output(int status) {
+int status_of_output(int status, const ErrorReport& report) {
   const bool printed = std::fflush(stdout) == 0 && !std::ferror(stdout);
   const bool answered = status == exit_done || status == exit_images_differ;
   return printed || !answered ? status : report("the output could not be written", exit_not_written);
@@ -498,18 +547,18 @@ int run(int argc, char** argv, std::string_view commit) {
   Request request;
   request.commit = commit;
   add_commands(app, request);
+  const ErrorReport report(argc, argv);
   if (const auto fault = unknown_command(app, argc, argv)) return report(*fault, exit_usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::ostringstream help, fault;
     const bool asked_for_help = app.exit(error, help, fault) == static_cast<int>(CLI::ExitCodes::Success);
-    say_text(fault.str());
-    return asked_for_help ? status_of_output(run_command([&] { return print_text(help.str()), exit_done; }))
-                          : exit_usage;
+    if (!asked_for_help) return report.usage(error, fault.str());
+    return status_of_output(run_command([&] { return print_text(help.str()), exit_done; }, report), report);
   }
   request.render.command = typed_command(argc, argv);
-  return status_of_output(run_command(request.command));
+  return status_of_output(run_command(request.command, report), report);
 }
 
 }  // namespace billow::cli

@@ -1,4 +1,6 @@
 // billow check: everything short of simulating; prints the effective scene.
+#include <fmt/format.h>
+
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/watched_scene.h"
@@ -13,7 +15,7 @@
 namespace billow::cli {
 
 int check_command(const SceneOptions& options) {
-  Progress progress(ProgressStyle::automatic);
+  Progress progress(options.progress);
   const Scene scene = read_scene(options.scene, options.overrides, progress);
   progress.phase("springs");
   const Simulation simulation(scene);
@@ -22,15 +24,16 @@ int check_command(const SceneOptions& options) {
   progress.end();
   print_text(scene.effective);
   const sim::Structure& structure = simulation.structure();
-  say_line("{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})",
-           scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
-           structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound);
-  for (const std::string& line : mesh_lines(scene)) say_message(line);
-  for (const std::string& line : material_lines(scene, structure)) say_message(line);
-  for (const std::string& line : level_lines(simulation)) say_message(line);
-  for (const std::string& line : contact_lines(scene)) say_message(line);
-  for (const std::string& warning : mesh_warnings(scene)) say_line("warning: {}", warning);
-  for (const std::string& warning : step_warnings(structure, choice)) say_line("warning: {}", warning);
+  progress.say(
+      fmt::format("{}: good. {} particles ({} pinned), {} springs, {} frames; k0 = {:.6g} /s², step {:.4g} s ({})",
+                  scene.file.string(), structure.particles(), (structure.inverse_mass.array() == 0.0).count(),
+                  structure.springs(), frame_count(scene), choice.k0.value, choice.step, choice.bound));
+  for (const std::string& line : mesh_lines(scene)) progress.say(line);
+  for (const std::string& line : material_lines(scene, structure)) progress.say(line);
+  for (const std::string& line : level_lines(simulation)) progress.say(line);
+  for (const std::string& line : contact_lines(scene)) progress.say(line);
+  for (const std::string& warning : mesh_warnings(scene)) progress.say("warning: " + warning);
+  for (const std::string& warning : step_warnings(structure, choice)) progress.say("warning: " + warning);
   return exit_done;
 }
 

@@ -22,6 +22,7 @@ struct SceneOptions {
   std::filesystem::path scene;
   std::vector<Override> overrides;
   bool json = false;
+  ProgressStyle progress = ProgressStyle::automatic;
 };
 int check_command(const SceneOptions& options);
 

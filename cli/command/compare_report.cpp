@@ -14,12 +14,16 @@
 #include "base/regular_file.h"
 #include "base/xml.h"
 #include "cli/cache/base64.h"
+#include "cli/command/compared_sequences.h"
+#include "cli/command/packed_values.h"
+#include "cli/page/line_plot.h"
 #include "cli/page/page_file.h"
 #include "cli/page/report_page.h"
 #include "cli/run/output_folder.h"
 #include "cli/text/json_text.h"
 #include "render/image/colour_map.h"
 #include "render/image/flip.h"
+#include "render/image/image_rows.h"
 #include "render/image/png.h"
 
 namespace billow::cli {
@@ -39,7 +43,7 @@ bool needs_a_look_before(const ComparedPair& a, const ComparedPair& b) {
     return std::make_tuple(pair.verdict == Verdict::unreadable  ? 0
                            : pair.verdict == Verdict::different ? 1
                                                                 : 2,
-                           whole, whole ? -pair.comparison->share_over : 0.0, whole ? -pair.comparison->max : 0);
+                           whole, whole ? -pair.comparison->share_over : 0.0, whole ? -pair.comparison->apart : 0.0);
   };
   return rank(a) != rank(b) ? rank(a) < rank(b) : a.name < b.name;
 }
@@ -60,8 +64,10 @@ Json file_uri(const fs::path& file) {
 Json flip_uri(ComparedPair& pair) {
   if (!pair.comparison) return {};
   double sum = 0.0;
-  render::PngRows a(pair.a), b(pair.b);
-  render::Image map(a.width(), a.height());
+  render::ImagePair images(pair.a, pair.b);
+  const render::RowShape& shape = images.shape();
+  if (!shape.colours()) return {};
+  render::Image map(shape.width, shape.height);
   render::Flip flip(map.width, map.height, [&](int y, const Eigen::ArrayXd& errors) {
     sum += errors.sum();
     for (int x = 0; x < map.width; ++x) {
@@ -69,7 +75,10 @@ Json flip_uri(ComparedPair& pair) {
       std::copy(colour.begin(), colour.end(), map.row(y) + 3 * x);
     }
   });
-  for (int y = 0; y < map.height; ++y) flip.add_row(a.next(), a.channels(), b.next(), b.channels());
+  for (int y = 0; y < map.height; ++y) {
+    images.next();
+    flip.add_row(seen_row(shape, images.a()).data(), 3, seen_row(shape, images.b()).data(), 3);
+  }
   flip.finish();
   const double pixels = double(map.width) * map.height;
   if (!pair.comparison->flip && pair.comparison->pixels == static_cast<std::int64_t>(pixels))
@@ -83,18 +92,60 @@ Json picture_of(ComparedPair& pair) {
                {"b", pair.b.string()},
                {"why", fmt::format("{}: {}", name_of(pair.verdict), pair.why)}};
   if (pair.comparison) json["worst"] = {pair.comparison->worst_x, pair.comparison->worst_y};
-  json["data_a"] = file_uri(pair.a);
-  json["data_b"] = file_uri(pair.b);
+  json["values"] = packed_values(pair);
+  const bool is_decoded = json["values"].is_null() && pair.a.extension() != ".exr";
+  json["data_a"] = is_decoded ? file_uri(pair.a) : Json();
+  json["data_b"] = is_decoded ? file_uri(pair.b) : Json();
   json["data_flip"] = flip_uri(pair);
   return json;
+}
+
+// What a curve over the frames shows of each.
+PlotLine curve(const std::string& name, const std::string& colour, const ComparedSequence& sequence,
+               const std::vector<ComparedPair>& pairs, double (*value)(const render::Comparison&)) {
+  PlotLine line{name, colour, {}};
+  for (const ComparedSequence::Frame& frame : sequence.frames)
+    if (const auto& c = pairs[frame.pair].comparison)
+      line.points.push_back({static_cast<double>(frame.number), value(*c)});
+  return line;
+}
+
+// The frames of which the page has pictures: their numbers and the pictures' places.
+Json frames_with_pictures(const ComparedSequence& sequence) {
+  Json frames = Json::array();
+  for (const ComparedSequence::Frame& frame : sequence.frames)
+    if (frame.pair < most_pictures) frames.push_back({frame.number, frame.pair});
+  return frames;
+}
+
+std::string curves(const ComparedSequence& sequence, const std::vector<ComparedPair>& pairs, double threshold) {
+  const double first = static_cast<double>(sequence.frames.front().number),
+               last = static_cast<double>(sequence.frames.back().number);
+  const auto plot = [&](const std::string& title, const std::string& unit, std::vector<PlotLine> lines) {
+    return line_plot({title, unit, first, last, std::move(lines), true, true});
+  };
+  const auto& sample = pairs[sequence.frames.front().pair].comparison;
+  const bool is_float = sample && sample->depth == render::Depth::floats;
+  return fmt::format(
+      "<section class=\"curves\" data-begin=\"{}\" data-end=\"{}\" data-frames=\"{}\">\n<h2>{}</h2>\n<p "
+      "class=\"summary\">{}</p>\n{}{}</section>\n",
+      first, last, frames_with_pictures(sequence).dump(), xml_escape(sequence.name),
+      xml_escape(sequence_text(sequence, pairs)),
+      plot(fmt::format("pixels over {:.4g}/255", threshold), "%",
+           {curve("share", "1", sequence, pairs, [](const render::Comparison& c) { return 100.0 * c.share_over; })}),
+      plot("differences", is_float ? "own units" : "of 255",
+           {curve("largest", "1", sequence, pairs, [](const render::Comparison& c) { return c.max; }),
+            curve("rmse", "2", sequence, pairs, [](const render::Comparison& c) { return c.rmse; })}));
 }
 
 std::string numbers(const ComparedPair& pair) {
   if (!pair.comparison) return "<td></td><td></td><td></td><td></td><td></td><td></td>";
   const render::Comparison& c = *pair.comparison;
   const auto cell = [](const std::string& text) { return fmt::format("<td class=\"number\">{}</td>", text); };
-  return cell(std::to_string(c.max)) + cell(fmt::format("{:.3f}", c.rmse)) +
-         cell(std::isfinite(c.psnr) ? fmt::format("{:.1f} dB", c.psnr) : "∞") + cell(fmt::format("{:.5f}", c.ssim)) +
+  return cell(std::isfinite(c.max) ? fmt::format("{:.4g}", c.max) : "∞") +
+         cell(c.rmse != 0.0 && c.rmse < 0.001 ? fmt::format("{:.1e}", c.rmse) : fmt::format("{:.3f}", c.rmse)) +
+         cell(std::isfinite(c.psnr) ? fmt::format("{:.1f} dB", c.psnr) : "∞") +
+         cell(std::isnan(c.ssim) ? "" : fmt::format("{:.5f}", c.ssim)) +
          cell(c.flip ? fmt::format("{:.4f}", *c.flip) : "") + cell(fmt::format("{:.3g} %", 100.0 * c.share_over));
 }
 
@@ -139,11 +190,15 @@ void write_compare_report(const fs::path& folder, std::vector<ComparedPair> pair
     rows += row_of(pairs[k], k);
   }
   const std::string title = fmt::format("{} and {}", options.a.string(), options.b.string());
+  std::string sections;
+  for (const ComparedSequence& sequence : sequences_of(pairs))
+    sections += curves(sequence, pairs, options.tolerance.what.threshold);
   const std::string json = json_text(pictures);
   const std::string body =
       fill_template(page_file("compare.html"), {{"title", xml_escape(title)},
                                                 {"summary", xml_escape(summary(pairs))},
-                                                {"threshold", std::to_string(options.tolerance.what.threshold)},
+                                                {"threshold", fmt::format("{:.4g}", options.tolerance.what.threshold)},
+                                                {"curves", sections},
                                                 {"rows", rows},
                                                 {"pictures", json_for_script(json)}});
   make_folder(folder);

@@ -26,16 +26,14 @@ namespace fs = std::filesystem;
 
 using render::PngRows;
 
-render::RowComparison::Shape shape_of(const PngRows& rows) { return {rows.width(), rows.height(), rows.channels()}; }
-
 /// What counts of a row: where the mask's luma is at least half of white.
 class Mask {
  public:
-  Mask(const fs::path& file, const PngRows& image)
-      : rows_(opened(file)), counts_(static_cast<std::size_t>(image.width())) {
-    if (rows_.width() != image.width() || rows_.height() != image.height())
+  Mask(const fs::path& file, const render::RowShape& image)
+      : rows_(opened(file)), counts_(static_cast<std::size_t>(image.width)) {
+    if (rows_.width() != image.width || rows_.height() != image.height)
       throw InputError(fmt::format("{}: the mask has {} x {} pixels and the image {} x {}", file.string(),
-                                   rows_.width(), rows_.height(), image.width(), image.height()));
+                                   rows_.width(), rows_.height(), image.width, image.height));
   }
 
   const std::uint8_t* next() {
@@ -61,20 +59,40 @@ class Mask {
   std::vector<std::uint8_t> counts_;
 };
 
-render::Comparison comparison_of(PngRows& a, PngRows& b, const ImageTolerance& tolerance) {
-  render::RowComparison comparison(shape_of(a), shape_of(b), tolerance.what);
+render::Comparison comparison_of(render::ImagePair& images, const ImageTolerance& tolerance) {
+  render::RowComparison comparison(images.shape(), tolerance.what);
   std::optional<Mask> mask;
-  if (!tolerance.mask.empty()) mask.emplace(tolerance.mask, a);
-  for (int y = 0; y < a.height(); ++y) comparison.add_row(a.next(), b.next(), mask ? mask->next() : nullptr);
+  if (!tolerance.mask.empty()) mask.emplace(tolerance.mask, images.shape());
+  for (int y = 0; y < images.shape().height; ++y) {
+    images.next();
+    comparison.add_row(images.a(), images.b(), mask ? mask->next() : nullptr);
+  }
   return comparison.finish();
 }
 
 // Of two files that have been compared.
 void write_difference(const fs::path& file, const ComparedPair& pair) {
-  PngRows a(pair.a), b(pair.b);
-  render::write_png_rows(file, a.width(), a.height(), 3, [&](int, std::uint8_t* row) {
-    render::difference_row(a.next(), a.channels(), b.next(), b.channels(), a.width(), row);
+  render::ImagePair images(pair.a, pair.b);
+  render::write_png_rows(file, images.shape().width, images.shape().height, 3, [&](int, std::uint8_t* row) {
+    images.next();
+    render::difference_row(images.shape(), images.a(), images.b(), row);
   });
+}
+
+void check_metrics(const render::Tolerance& tolerance, const render::RowShape& shape) {
+  for (const render::MetricLimit& limit : tolerance.metrics)
+    if (render::is_of_colours(limit.metric) && !shape.colours())
+      throw InputError(
+          fmt::format("{} is of colours, and the images have no channels R, G and B; judge them by max or rmse",
+                      word_of(limit.metric)));
+}
+
+// What of a comparison is worth a word where two images are the same, too.
+std::string note_of(const render::Comparison& c, const std::string& odd) {
+  std::string note = odd;
+  if (c.explained > 0) note += fmt::format("{}{} px explained by edges nearby", note.empty() ? "" : ", ", c.explained);
+  if (c.both_nan > 0) note += fmt::format("{}{} NaN in both", note.empty() ? "" : ", ", c.both_nan);
+  return note;
 }
 
 // By the tolerance of `baseline`, which may be another version of the same picture.
@@ -82,12 +100,15 @@ void judge(ComparedPair& pair, const fs::path& baseline, const CompareOptions& o
   try {
     const ImageTolerance tolerance = tolerance_of(baseline, options.tolerance);
     pair.reason = tolerance.reason;
-    PngRows a(pair.a), b(pair.b);
+    render::ImagePair images(pair.a, pair.b);
     pair.verdict = Verdict::different;
-    pair.why = fmt::format("{} x {} and {} x {} pixels", a.width(), a.height(), b.width(), b.height());
-    if (a.width() != b.width() || a.height() != b.height()) return;
-    pair.comparison = comparison_of(a, b, tolerance);
+    pair.why = images.mismatch().value_or("");
+    if (images.mismatch()) return;
+    check_metrics(tolerance.allowed, images.shape());
+    pair.comparison = comparison_of(images, tolerance);
     pair.why = render::difference_text(*pair.comparison, tolerance.what.threshold);
+    if (!images.note().empty()) pair.why += ", " + images.note();
+    pair.note = note_of(*pair.comparison, images.note());
     if (render::within_tolerance(*pair.comparison, tolerance.allowed)) pair.verdict = Verdict::same;
   } catch (const InputError& error) {
     pair.verdict = Verdict::unreadable;
@@ -95,11 +116,11 @@ void judge(ComparedPair& pair, const fs::path& baseline, const CompareOptions& o
   }
 }
 
-bool is_png(const fs::path& file) {
+bool is_image(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  return extension == ".png";
+  return extension == ".png" || extension == ".exr";
 }
 
 /// What a folder has.
@@ -120,7 +141,7 @@ void look_into(const fs::path& folder, const fs::path& inner, FolderNames& names
       names.fault[name] = (folder / relative).string() + ": is a link to a folder, which is not followed";
     else if (entry->is_directory(ignored))
       look_into(folder, relative, names);
-    else if (is_png(relative))
+    else if (is_image(relative))
       names.images.insert(name);
     else if (name.ends_with(tolerance_ending))
       names.tolerances.insert(name);
@@ -197,6 +218,7 @@ ComparedPair judged(const std::string& name, const Names& names, const CompareOp
     judge(other, pair.a, options);
     if (other.verdict != Verdict::same) continue;
     other.why += ", to " + version;
+    other.note = "to " + version;
     return other;
   }
   return pair;
@@ -205,8 +227,8 @@ ComparedPair judged(const std::string& name, const Names& names, const CompareOp
 // Whether it can be read to its end; why not, if not.
 std::optional<std::string> fault_of(const fs::path& file) {
   try {
-    PngRows rows(file);
-    for (int y = 0; y < rows.height(); ++y) rows.next();
+    render::ImageRows rows(file);
+    for (int y = 0; y < rows.shape().height; ++y) rows.next();
     return std::nullopt;
   } catch (const InputError& error) {
     return error.what();
@@ -236,7 +258,8 @@ void add_idle_tolerances(const Names& names, const CompareOptions& options, std:
     const auto is_its_picture = [&](const std::string& image) { return image.substr(0, image.rfind('.')) == stem; };
     if (std::none_of(names.a.images.begin(), names.a.images.end(), is_its_picture) &&
         std::none_of(names.b.images.begin(), names.b.images.end(), is_its_picture))
-      pairs.push_back(unreadable(name, fmt::format("there is no picture {}.png that it is for", stem), options));
+      pairs.push_back(
+          unreadable(name, fmt::format("there is no picture {0}.png or {0}.exr that it is for", stem), options));
   }
 }
 
@@ -253,7 +276,7 @@ std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   faults.insert(names.b.fault.begin(), names.b.fault.end());
   for (const auto& [name, why] : faults) pairs.push_back(unreadable(name, why, options));
   add_idle_tolerances(names, options, pairs);
-  if (pairs.empty()) throw InputError("neither folder holds a PNG image");
+  if (pairs.empty()) throw InputError("neither folder holds a PNG or OpenEXR image");
   return pairs;
 }
 

@@ -23,14 +23,15 @@ struct ComparedPair {
   Verdict verdict = Verdict::unreadable;
   std::string why;                               // in a line
   std::string reason;                            // for another tolerance than the usual one; empty: it is that
-  std::optional<render::Comparison> comparison;  // where both could be read and are of one size
+  std::optional<render::Comparison> comparison;  // where both could be read and have a value for each of the other's
+  std::string note = {};                         // what of `why` is worth saying of those that are the same too
 };
 
-/// Every pair of images of two files or of two folders (below them, *.png in any case), by name. What befalls a pair is
-/// in its row and stops no other; a file that is in one folder only is a difference; links to folders are not followed,
-/// which is said in a row. In the first folder NAME.1.png and so on are other pictures that will do for NAME.png, where
-/// the second has no such names, NAME.tolerance.yaml is the tolerance of NAME.png, and masks that these name are no
-/// pictures. Throws InputError where there is nothing to compare at all.
+/// Every pair of images of two files or of two folders (below them, *.png and *.exr in any case), by name. What befalls
+/// a pair is in its row and stops no other; a file that is in one folder only is a difference; links to folders are not
+/// followed, which is said in a row. In the first folder NAME.1.png and so on are other pictures that will do for
+/// NAME.png, where the second has no such names, NAME.tolerance.yaml is the tolerance of NAME.png (so with NAME.exr),
+/// and masks that these name are no pictures. Throws InputError where there is nothing to compare at all.
 std::vector<ComparedPair> compared_images(const CompareOptions& options);
 
 /// Copies from the second folder, or file, to the first those of `pairs` that differ, are new there or damaged there,

@@ -138,7 +138,7 @@ void print_table(const std::vector<Response>& list) {
 }  // namespace
 
 int filter_command(const FilterCommandOptions& options) {
-  Progress progress(ProgressStyle::automatic);
+  Progress progress(options.scene.progress);
   const Scene scene = read_scene(options.scene.scene, options.scene.overrides, progress);
   progress.phase("springs");
   const Simulation simulation(scene);

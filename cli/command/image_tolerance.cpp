@@ -16,14 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Range channel_value{0, 255, false, "of 255"};
-
 const Section& section() {
   static const Section keys{"the tolerance",
                             {{"reason"},
-                             {"channel", channel_value},
+                             {"channel"},
                              {"pixels"},
-                             {"worst", channel_value},
+                             {"worst"},
+                             {"edge", {0, render::largest_edge, false, "pixel"}},
                              {"ignore_alpha"},
                              {"mask"},
                              {"metrics"}}};
@@ -57,6 +56,15 @@ void read_pixels_of(MapReader& map, render::Tolerance& tolerance) {
     fail_at(node->where, fmt::format("pixels is '{}', and should be a number like 250 or a share like 0.5%", text));
 }
 
+void read_share_of(MapReader& map, const char* key, double& of_255) {
+  const Node* node = map.find(key);
+  if (!node) return;
+  const std::string text = read_text(*node, key);
+  if (!read_share_of_white(text, of_255))
+    fail_at(node->where,
+            fmt::format("{} is '{}', and should be from 0 to 255 or a share of white like 0.1%", key, text));
+}
+
 void read_metrics(MapReader& map, render::Tolerance& tolerance) {
   const Node* node = map.find("metrics");
   if (!node) return;
@@ -83,6 +91,17 @@ bool read_pixels(const std::string& text, render::Tolerance& tolerance) {
   return true;
 }
 
+bool read_share_of_white(const std::string& text, double& of_255) {
+  const char* const end = text.data() + text.size();
+  double number = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const bool is_percent = rest + 1 == end && *rest == '%';
+  if (is_percent) number *= 2.55;
+  if (error != std::errc() || !(is_percent || rest == end) || !(number >= 0.0 && number <= 255.0)) return false;
+  of_255 = number;
+  return true;
+}
+
 ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usual) {
   fs::path file = baseline;
   file.replace_extension(tolerance_ending);
@@ -92,8 +111,9 @@ ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usua
   const NodePtr root = read_yaml_file(file);
   MapReader map(*root, section(), make_map());
   tolerance.reason = read_reason(map);
-  tolerance.what.threshold = map.integer("channel", usual.what.threshold);
-  tolerance.allowed.worst = map.integer("worst", usual.allowed.worst);
+  read_share_of(map, "channel", tolerance.what.threshold);
+  read_share_of(map, "worst", tolerance.allowed.worst);
+  tolerance.what.edge = map.integer("edge", usual.what.edge);
   tolerance.what.ignore_alpha = map.boolean("ignore_alpha", usual.what.ignore_alpha);
   if (map.find("mask")) tolerance.mask = file.parent_path() / map.text("mask");
   read_pixels_of(map, tolerance.allowed);

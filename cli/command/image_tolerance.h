@@ -23,8 +23,11 @@ struct ImageTolerance {
 /// "250" pixels or "0.5%" of them; false for anything else.
 bool read_pixels(const std::string& text, render::Tolerance& tolerance);
 
-/// `usual`, but for what NAME.tolerance.yaml beside the baseline NAME.png says, if there is one. Throws InputError with
-/// the place of what is wrong in it.
+/// "3", "0.5" of 255, or "0.1%" of white; false for anything else and what is more than white.
+bool read_share_of_white(const std::string& text, double& of_255);
+
+/// `usual`, but for what NAME.tolerance.yaml beside the baseline NAME.png or NAME.exr says, if there is one. Throws
+/// InputError with the place of what is wrong in it.
 ImageTolerance tolerance_of(const std::filesystem::path& baseline, const ImageTolerance& usual);
 
 }  // namespace billow::cli

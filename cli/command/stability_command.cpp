@@ -179,7 +179,7 @@ std::string shown(const Limit& limit) {
   return *limit.step == 0.0 ? "0 (grows)" : fmt::format("{:.4f}", 1e3 * *limit.step);
 }
 
-void print_table(const Subject& subject, const std::vector<Row>& rows) {
+void print_table(const Subject& subject, const std::vector<Row>& rows, Progress& progress) {
   const bool has_measured = rows.front().measured.known;
   print_line("k0 = {:.6g} /s² by Lanczos ({} iterations{})", subject.k0.value, subject.k0.iterations,
              subject.k0.converged ? "" : ", NOT converged");
@@ -201,14 +201,15 @@ void print_table(const Subject& subject, const std::vector<Row>& rows) {
       "\npaper: equation 11 and Algorithm 1. certified: no growth of the linearised step at this state. any shape: "
       "the\n"
       "same for the stiffest that any fold can be. none: no limit found.\n");
-  for (const std::string& law : subject.unbounded) say_line("warning: no limit counts {}, which has no bound", law);
-  if (subject.setter) say_line("warning: {}", sim::text_of(subject.phase.structure, *subject.setter));
+  for (const std::string& law : subject.unbounded)
+    progress.say(fmt::format("warning: no limit counts {}, which has no bound", law));
+  if (subject.setter) progress.say("warning: " + sim::text_of(subject.phase.structure, *subject.setter));
 }
 
 }  // namespace
 
 int stability_command(const StabilityOptions& options) {
-  Progress progress(ProgressStyle::automatic);
+  Progress progress(options.scene.progress);
   const Scene scene = read_scene(options.scene.scene, options.scene.overrides, progress);
   progress.phase("springs");
   const Simulation simulation(scene);
@@ -226,7 +227,7 @@ int stability_command(const StabilityOptions& options) {
   if (options.scene.json)
     print_json(json_text(as_json(subject, rows), 2));
   else
-    print_table(subject, rows);
+    print_table(subject, rows, progress);
   return exit_done;
 }
 

@@ -75,12 +75,19 @@ std::string dots(const PlotLine& line, const Scale& scale) {
 
 int steps_of(const ValueAxis& axis) { return static_cast<int>(std::lround((axis.high - axis.low) / axis.step)); }
 
+// Frames are counted: none lies between two ticks that are one apart.
+TimeTicks ticks_of(const LinePlot& plot) {
+  constexpr int most = 11;
+  const double span = plot.end - plot.begin;
+  return time_ticks(plot.begin, plot.end, plot.by_frame && span < most - 1 ? static_cast<int>(span) + 1 : most);
+}
+
 std::string grid(const LinePlot& plot, const ValueAxis& axis) {
   const Scale scale{plot, axis};
   std::string path;
   for (int k = 0; k <= steps_of(axis); ++k)
     path += fmt::format("M0 {}H{}", coordinate(plot_height * k / steps_of(axis)), plot_width);
-  for (const double time : time_ticks(plot.begin, plot.end).times)
+  for (const double time : ticks_of(plot).times)
     path += fmt::format("M{} 0V{}", coordinate(scale.x(time)), plot_height);
   std::string svg = fmt::format("<path class=\"grid\" d=\"{}\"/>\n", path);
   if (axis.low < 0.0 && axis.high > 0.0)
@@ -169,7 +176,7 @@ std::string number_text(double value, int decimals) {
   return text[0] == '-' ? "\u2212" + text.substr(1) : text;
 }
 
-std::string time_labels(const TimeTicks& ticks, double begin, double end) {
+std::string time_labels(const TimeTicks& ticks, double begin, double end, std::string_view unit) {
   std::string labels;
   for (const double time : ticks.times) {
     const std::string place = coordinate(100.0 * (time - begin) / (end - begin));
@@ -177,7 +184,7 @@ std::string time_labels(const TimeTicks& ticks, double begin, double end) {
                           place == "0"     ? " class=\"first\""
                           : place == "100" ? " class=\"last\""
                                            : "",
-                          place, number_text(time, ticks.decimals), time == ticks.times.back() ? " s" : "");
+                          place, number_text(time, ticks.decimals), time == ticks.times.back() ? unit : "");
   }
   return labels;
 }
@@ -195,11 +202,11 @@ std::string line_plot(const LinePlot& plot) {
       "<figure class=\"plot\" data-low=\"{}\" data-high=\"{}\" data-decimals=\"{}\" data-prefix=\"{}\">\n"
       "{}\n"
       "<div class=\"lane\"><div class=\"y-ticks\" aria-hidden=\"true\">{}</div><div class=\"axes seek\">"
-      "<svg viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"{} over time\">\n{}{}</svg>"
+      "<svg viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"{} {}\">\n{}{}</svg>"
       "<i class=\"cursor\"></i></div>\n<div class=\"ticks\" aria-hidden=\"true\">{}</div></div>\n</figure>\n",
       axis.low, axis.high, axis.decimals + 2, plot.exact ? "" : "≈ ", caption(plot, axis, keys), value_labels(axis),
-      plot_width, plot_height, xml_escape(plot.title), grid(plot, axis), lines,
-      time_labels(time_ticks(plot.begin, plot.end), plot.begin, plot.end));
+      plot_width, plot_height, xml_escape(plot.title), plot.by_frame ? "by frame" : "over time", grid(plot, axis),
+      lines, time_labels(ticks_of(plot), plot.begin, plot.end, plot.by_frame ? "" : " s"));
 }
 
 }  // namespace billow::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace billow::cli {
@@ -18,10 +19,11 @@ struct PlotLine {
 
 struct LinePlot {
   std::string title, unit;
-  double begin = 0.0, end = 0.0;  // [s] the time axis; end > begin
+  double begin = 0.0, end = 0.0;  // [s] the time axis, or numbers of frames; end > begin
   std::vector<PlotLine> lines;
-  bool exact = true;  // false: the lines keep extremes only, and what is read from them is marked with ≈
-  bool dots = false;  // mark the points: there was more between them, which is not known
+  bool exact = true;      // false: the lines keep extremes only, and what is read from them is marked with ≈
+  bool dots = false;      // mark the points: there was more between them, which is not known
+  bool by_frame = false;  // over numbers of frames instead of time
 };
 
 /// A value axis: from low to high, both multiples of `step`, after division by 10^exponent.
@@ -44,8 +46,8 @@ TimeTicks time_ticks(double begin, double end, int most = 11);
 /// `value` with a true minus sign.
 std::string number_text(double value, int decimals);
 
-/// Labels for `ticks`, each at its place along the axis: what belongs into a div.ticks.
-std::string time_labels(const TimeTicks& ticks, double begin, double end);
+/// Labels for `ticks`, each at its place along the axis, `unit` behind the last: what belongs into a div.ticks.
+std::string time_labels(const TimeTicks& ticks, double begin, double end, std::string_view unit = " s");
 
 /// The plot as a figure.plot of page.css. run.js reads values from it at the cursor: the points are in thousandths of
 /// the time axis, and downwards in 1/400 from data-high to data-low. Where no line has two points there are no axes:

@@ -27,7 +27,9 @@ void check_file(const fs::path& file, std::string_view kind, const std::string& 
   if (status.type() == fs::file_type::not_found) fail_at(where, fmt::format("there is no {} file {}", kind, shown));
   if (status.type() == fs::file_type::none)
     fail_at(where, fmt::format("the {} {} cannot be read: {}", kind, shown, error.message()));
-  if (!fs::is_regular_file(status)) fail_at(where, fmt::format("the {} {} is not a regular file", kind, shown));
+  if (!fs::is_regular_file(status))
+    fail_at(where,
+            fmt::format("the {} {} is not a regular file; name one, or save what comes from it as one", kind, shown));
 }
 
 sim::Mesh load_mesh(const fs::path& file, const std::string& where, const FileWatch& watch) {

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/error.h"
 #include "cli/scene/fingerprint.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/scene_files.h"
@@ -76,15 +77,27 @@ std::vector<std::string> names_of(const std::vector<BodyDraft>& drafts) {
   return names;
 }
 
+// "-" is standard input.
+NodePtr read_root(const std::filesystem::path& file) {
+  if (file == "-") return read_yaml_input();
+  std::error_code error;
+  if (std::filesystem::is_fifo(file, error))
+    throw InputError(fmt::format(
+        "{}: this is a pipe, not a file; save what comes through it as one, or have 'billow check -' read it "
+        "from standard input",
+        file.string()));
+  return read_yaml_file(file);
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides, const FileWatch& watch) {
-  const NodePtr root = with_overrides(read_yaml_file(file), overrides);
+  const NodePtr root = with_overrides(read_root(file), overrides);
   const NodePtr record = make_map();
   MapReader map(*root, keys::section(""), record);
   read_version(map);
   Scene scene;
-  scene.file = file;
+  scene.file = file == "-" ? "<stdin>" : file;
   scene.duration = map.number("duration", scene.duration);
   scene.gravity = map.vector("gravity", scene.gravity);
   Names names;

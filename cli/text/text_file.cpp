@@ -2,8 +2,12 @@
 #include "cli/text/text_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 
 #include "base/error.h"
 #include "base/regular_file.h"
@@ -27,6 +31,19 @@ int character_length(std::string_view bytes) {
 
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_bytes) {
   return read_regular_file(file, max_bytes, "; this is no scene");
+}
+
+std::string read_standard_input(std::uintmax_t max_bytes) {
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (bytes.size() <= max_bytes) {
+    const ssize_t got = read(STDIN_FILENO, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw InputError(fmt::format("<stdin>: cannot be read: {}", std::strerror(errno)));
+    if (got == 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(got));
+  }
+  throw InputError(fmt::format("<stdin>: larger than {} KiB; this is no scene", max_bytes / 1024));
 }
 
 std::optional<std::size_t> find_non_text(std::string_view bytes) {

@@ -13,6 +13,9 @@ namespace billow::cli {
 /// `max_bytes`; nothing of a file that is too large is read.
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
+/// The same of standard input, up to its end; messages call it <stdin>.
+std::string read_standard_input(std::uintmax_t max_bytes);
+
 /// Offset of the first byte that is not UTF-8 text: malformed UTF-8, or a control character other than tab, line feed
 /// and carriage return.
 std::optional<std::size_t> find_non_text(std::string_view bytes);

@@ -246,6 +246,8 @@ NodePtr parse_yaml_value(const std::string& text, const std::string& where) {
   return parse(text, Locator(text, where, true));
 }
 
+NodePtr read_yaml_input() { return parse_yaml(read_standard_input(max_bytes), "<stdin>"); }
+
 NodePtr read_yaml_file(const std::filesystem::path& file) {
   return parse_yaml(read_text_file(file, max_bytes), file.string());
 }

@@ -38,6 +38,9 @@ struct Node {
 /// YAML, more than 32 levels deep, larger than 100,000 nodes with its aliases expanded, or has a key twice.
 NodePtr read_yaml_file(const std::filesystem::path& file);
 
+/// The same of what comes through standard input, which messages call <stdin>.
+NodePtr read_yaml_input();
+
 /// The same for text; the messages begin with "NAME:LINE:COLUMN: ".
 NodePtr parse_yaml(const std::string& text, const std::string& name);
 

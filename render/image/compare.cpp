@@ -1,11 +1,9 @@
-// Image metrics.
+// Differences of rows of values; what is seen of them goes to Similarity and Flip.
 #include "render/image/compare.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -18,174 +16,242 @@
 namespace billow::render {
 namespace {
 
-constexpr int window_radius = 5;      // an 11 x 11 window
-constexpr double window_sigma = 1.5;  // [pixel]
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double window_weight(int offset) { return std::exp(-0.5 * offset * offset / (window_sigma * window_sigma)); }
+bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// The weights of those pixels of a window around `centre` that lie within `size` pixels, summed.
-double weight_inside(Eigen::Index centre, Eigen::Index size) {
-  double sum = 0.0;
-  for (int offset = -window_radius; offset <= window_radius; ++offset)
-    if (centre + offset >= 0 && centre + offset < size) sum += window_weight(offset);
-  return sum;
+// What of 255 a difference of two values is, which lie around `a` and `b`.
+double share_of_white(Depth depth, const RowChannel& channel, double difference, double a, double b) {
+  if (!std::isfinite(difference)) return infinity;
+  if (channel.exact) return difference == 0.0 ? 0.0 : 255.0;
+  if (depth != Depth::floats) return difference * 255.0 / white_of(depth);
+  return 255.0 * difference / std::max({1.0, std::abs(a), std::abs(b)});
 }
 
-int channel(const std::uint8_t* pixel, int channels, int c) { return c < channels ? pixel[c] : 255; }
+// Without those of infinities of one sign, which have none.
+double difference_of(double a, double b) { return same_value(a, b) ? 0.0 : std::abs(a - b); }
+
+/// The values around a pixel.
+struct Surroundings {
+  double low = infinity, high = -infinity;
+  bool has_nan = false, has_it = false;  // the value that is looked for
+
+  void add(double value, double wanted) {
+    if (std::isnan(value)) {
+      has_nan = true;
+      return;
+    }
+    has_it = has_it || value == wanted;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+
+  // By how much a value is beyond them.
+  double beyond(double value, bool exact) const {
+    if (std::isnan(value)) return has_nan ? 0.0 : infinity;
+    if (has_it || (!exact && value >= low && value <= high)) return 0.0;
+    return exact || !(low <= high) ? infinity : std::min(std::abs(value - low), std::abs(value - high));
+  }
+};
+
+/// The last rows of an image.
+class RowWindow {
+ public:
+  explicit RowWindow(int radius) : rows_(2 * radius + 1), held_(static_cast<std::size_t>(rows_)) {}
+
+  void add(const ValueRow& row) { held_[static_cast<std::size_t>(added_++ % rows_)] = row; }
+  const ValueRow& at(Eigen::Index row) const { return held_[static_cast<std::size_t>(row % rows_)]; }
+  Eigen::Index added() const { return added_; }
+
+  // Within `radius` of a pixel, of the rows that have been added.
+  Surroundings around(Eigen::Index x, Eigen::Index y, Eigen::Index c, int radius, double wanted) const {
+    Surroundings found;
+    for (Eigen::Index v = std::max<Eigen::Index>(y - radius, 0); v < std::min(y + radius + 1, added_); ++v) {
+      const ValueRow& row = at(v);
+      for (Eigen::Index u = std::max<Eigen::Index>(x - radius, 0); u < std::min(x + radius + 1, row.rows()); ++u)
+        found.add(row(u, c), wanted);
+    }
+    return found;
+  }
+
+ private:
+  Eigen::Index rows_, added_ = 0;
+  std::vector<ValueRow> held_;
+};
+
+RowShape shape_of_pixels(const RowComparison::Shape& a, const RowComparison::Shape& b) {
+  if (a.width != b.width || a.height != b.height)
+    throw InputError(
+        fmt::format("the images differ in size: {} x {} and {} x {}", a.width, a.height, b.width, b.height));
+  RowShape shape{a.width, a.height, 0, 0, Depth::bits8, {{"R"}, {"G"}, {"B"}}};
+  if (std::max(a.channels, b.channels) > 3) shape.channels.push_back({"A"});
+  return shape;
+}
+
+ValueRow values_of(const std::uint8_t* row, int channels, const RowShape& shape) {
+  ValueRow values(shape.width, static_cast<Eigen::Index>(shape.channels.size()));
+  for (Eigen::Index x = 0; x < values.rows(); ++x, row += channels)
+    for (Eigen::Index c = 0; c < values.cols(); ++c) values(x, c) = c < channels ? row[c] : 255;
+  return values;
+}
 
 // Rec. 709 weights on the encoded values, as image metrics do.
-void luma(const std::uint8_t* row, int channels, Eigen::ArrayXd& result) {
-  for (Eigen::Index x = 0; x < result.size(); ++x, row += channels)
-    result(x) = 0.2126 * row[0] + 0.7152 * row[1] + 0.0722 * row[2];
+Eigen::ArrayXd luma_of(const std::vector<std::uint8_t>& seen) {
+  Eigen::ArrayXd luma(static_cast<Eigen::Index>(seen.size() / 3));
+  const std::uint8_t* rgb = seen.data();
+  for (Eigen::Index x = 0; x < luma.size(); ++x, rgb += 3)
+    luma(x) = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  return luma;
 }
 
 }  // namespace
 
-/// SSIM = (2 mu_a mu_b + C1)(2 s_ab + C2) / ((mu_a^2 + mu_b^2 + C1)(s_a^2 + s_b^2 + C2)), averaged over the pixels that
-/// count. The window is a product, so each row is blurred along itself once and waits until the rows around it have
-/// come.
-struct RowComparison::Similarity {
-  Similarity(Eigen::Index width, Eigen::Index height)
-      : width(width),
-        height(height),
-        inverse_weight(width),
-        waiting(width, moments * rows),
-        counts(width, rows),
-        mean(width, moments) {
-    for (Eigen::Index x = 0; x < width; ++x) inverse_weight(x) = 1.0 / weight_inside(x, width);
+/// How far the values of rows are apart, judged as soon as the rows around one have come.
+struct RowComparison::Differences {
+  Differences(const RowShape& shape, const ComparisonOptions& options)
+      : shape(shape),
+        options(options),
+        radius(std::max(options.edge, 1)),
+        of_255(255.0 / white_of(shape.depth)),
+        a(radius),
+        b(radius),
+        counted(shape.width, 2 * radius + 1),
+        over(static_cast<std::size_t>(shape.width)),
+        worst(static_cast<std::size_t>(shape.width)) {
+    result.depth = shape.depth;
+    for (const RowChannel& channel : shape.channels) result.channels.push_back({channel.name});
   }
 
-  void add_row(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b, const Eigen::ArrayXd& count) {
-    blur_along(a, waiting.col(column(0, added)));
-    blur_along(b, waiting.col(column(1, added)));
-    blur_along(a.square() + b.square(), waiting.col(column(2, added)));
-    blur_along(a * b, waiting.col(column(3, added)));
-    counts.col(added % rows) = count;
-    if (++added > window_radius) judge();
+  void add_row(const ValueRow& row_a, const ValueRow& row_b, const Eigen::ArrayXd& counts) {
+    counted.col(a.added() % counted.cols()) = counts;
+    a.add(row_a);
+    b.add(row_b);
+    if (a.added() > radius) judge();
   }
 
-  double finish(std::int64_t pixels) {
-    while (judged < height) judge();
-    return sum / static_cast<double>(pixels);
+  Comparison finish(std::int64_t pixels) {
+    while (judged < a.added()) judge();
+    const double unit = white_of(shape.depth) / (shape.depth == Depth::floats ? 1.0 : 255.0);
+    const double values = std::max<double>(static_cast<double>(compared - result.not_finite), 1.0);
+    result.pixels = pixels;
+    result.mean = sum / values / unit;
+    result.rmse = std::sqrt(squares / values) / unit;
+    const double white = white_of(shape.depth) / unit;
+    result.psnr = result.rmse > 0.0 ? 20.0 * std::log10(white / result.rmse) : infinity;
+    result.share_over = static_cast<double>(result.over) / static_cast<double>(pixels);
+    for (ChannelComparison& channel : result.channels) {
+      channel.max /= unit;
+      result.max = std::max(result.max, channel.max);
+    }
+    return result;
   }
 
  private:
-  static constexpr Eigen::Index moments = 4;  // of a pair of pixels: a, b, a^2 + b^2, a b
-  static constexpr Eigen::Index rows = 2 * window_radius + 1;
-  static constexpr Eigen::Index block = 512;  // [pixel] what the processor's first cache holds of all rows
-
-  static Eigen::Index column(Eigen::Index moment, Eigen::Index row) { return moment * rows + row % rows; }
-
-  template <class Values, class Blurred>
-  void blur_along(const Values& values, Blurred&& blurred) const {
-    const Eigen::ArrayXd line = values;
-    blurred.setZero();
-    for (Eigen::Index begin = 0; begin < width; begin += block)
-      for (int offset = -window_radius; offset <= window_radius; ++offset) {
-        const Eigen::Index from = std::max<Eigen::Index>(begin, -offset);
-        const Eigen::Index to = std::min(std::min(begin + block, width), width - offset);
-        if (to > from)
-          blurred.segment(from, to - from) += window_weight(offset) * line.segment(from + offset, to - from);
-      }
-    blurred *= inverse_weight;
-  }
-
-  // The next row around which all rows are there that the image has.
   void judge() {
-    const double scale = 1.0 / weight_inside(judged, height);
-    for (Eigen::Index begin = 0; begin < width; begin += block) {
-      const Eigen::Index count = std::min(block, width - begin);
-      for (Eigen::Index moment = 0; moment < moments; ++moment) {
-        auto blurred = mean.col(moment).segment(begin, count);
-        blurred.setZero();
-        for (int offset = -window_radius; offset <= window_radius; ++offset)
-          if (const Eigen::Index row = judged + offset; row >= 0 && row < height)
-            blurred += scale * window_weight(offset) * waiting.col(column(moment, row)).segment(begin, count);
-      }
-      add_similarity(begin, count);
+    const auto counts = counted.col(judged % counted.cols());
+    std::fill(over.begin(), over.end(), State::near);
+    std::fill(worst.begin(), worst.end(), 0.0);
+    for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(shape.channels.size()); ++c) {
+      if (options.ignore_alpha && shape.channels[c].name == "A") continue;
+      for (Eigen::Index x = 0; x < shape.width; ++x)
+        if (counts(x) != 0.0) judge_value(x, c);
     }
+    for (Eigen::Index x = 0; x < shape.width; ++x) {
+      result.explained += over[x] == State::explained;
+      if (over[x] != State::over) continue;
+      ++result.over;
+      result.over_off_edges += !has_edge(a, x) || !has_edge(b, x);
+    }
+    find_worst();
     ++judged;
   }
 
-  void add_similarity(Eigen::Index begin, Eigen::Index count) {
-    constexpr double c1 = (0.01 * 255.0) * (0.01 * 255.0), c2 = (0.03 * 255.0) * (0.03 * 255.0);
-    const auto of = [&](Eigen::Index moment) { return mean.col(moment).segment(begin, count); };
-    const Eigen::ArrayXd product = of(0) * of(1), squares = of(0).square() + of(1).square();
-    const Eigen::ArrayXd similarity =
-        (2.0 * product + c1) * (2.0 * (of(3) - product) + c2) / ((squares + c1) * (of(2) - squares + c2));
-    sum += (similarity * counts.col(judged % rows).segment(begin, count)).sum();
-  }
-
-  Eigen::Index width, height, added = 0, judged = 0;
-  Eigen::ArrayXd inverse_weight;
-  Eigen::ArrayXXd waiting, counts, mean;
-  double sum = 0.0;
-};
-
-/// Which differing pixels lie at an edge that both images have: where a channel spans more around one than it does on a
-/// surface in both, a silhouette that is a fraction of a pixel aside explains the difference.
-struct RowComparison::Edges {
-  static constexpr int least_edge = 24;  // [1/255]
-  static constexpr Eigen::Index rows = 3;
-
-  Edges(int width, int a_channels, int b_channels) : width(width), a(a_channels), b(b_channels), differs(width, rows) {}
-
-  void add_row(const std::uint8_t* row_a, const std::uint8_t* row_b, const Eigen::ArrayXd& over) {
-    a.set(added, row_a, width);
-    b.set(added, row_b, width);
-    differs.col(added % rows) = over;
-    if (++added > 1) judge(added - 2, added);
-  }
-
-  std::int64_t finish() {
-    judge(added - 1, added);
-    return off_edges;
-  }
-
- private:
-  /// The last rows of an image.
-  struct Window {
-    explicit Window(int channels) : channels(channels) {}
-
-    void set(Eigen::Index row, const std::uint8_t* pixels, Eigen::Index width) {
-      row_at(row).assign(pixels, pixels + width * channels);
+  void judge_value(Eigen::Index x, Eigen::Index c) {
+    const double value_a = a.at(judged)(x, c), value_b = b.at(judged)(x, c);
+    ++compared;
+    if (same_value(value_a, value_b)) {
+      result.both_nan += std::isnan(value_a);
+      return;
     }
-
-    // Of the channel that has most, among the pixels around one, of the rows before `end`.
-    int span(Eigen::Index x, Eigen::Index row, Eigen::Index end, Eigen::Index width) {
-      int most = 0;
-      for (int c = 0; c < 3; ++c) {
-        int low = 255, high = 0;
-        for (Eigen::Index v = std::max<Eigen::Index>(row - 1, 0); v < std::min(row + 2, end); ++v)
-          for (Eigen::Index u = std::max<Eigen::Index>(x - 1, 0); u < std::min(x + 2, width); ++u) {
-            const int value = row_at(v)[static_cast<std::size_t>(u * channels + c)];
-            low = std::min(low, value);
-            high = std::max(high, value);
-          }
-        most = std::max(most, high - low);
-      }
-      return most;
+    const double plain = difference_of(value_a, value_b);
+    const double difference = options.edge > 0 ? std::min(plain_or_infinite(plain), unexplained(x, c, value_a, value_b))
+                                               : plain_or_infinite(plain);
+    const auto share = [&](double of) {
+      return shape.depth != Depth::floats ? of * of_255
+                                          : share_of_white(shape.depth, shape.channels[c], of, value_a, value_b);
+    };
+    const double apart = share(difference);
+    ChannelComparison& channel = result.channels[c];
+    if (std::isfinite(difference)) {
+      channel.max = std::max(channel.max, difference);
+      sum += difference;
+      squares += difference * difference;
+    } else {
+      ++result.not_finite;
     }
-
-    std::vector<std::uint8_t>& row_at(Eigen::Index row) { return held[static_cast<std::size_t>(row % rows)]; }
-
-    int channels;
-    std::array<std::vector<std::uint8_t>, rows> held;
-  };
-
-  // A row, of the rows before `end`.
-  void judge(Eigen::Index row, Eigen::Index end) {
-    for (Eigen::Index x = 0; x < width; ++x)
-      if (differs(x, row % rows) != 0.0 &&
-          (a.span(x, row, end, width) <= least_edge || b.span(x, row, end, width) <= least_edge))
-        ++off_edges;
+    if (apart > options.threshold)
+      ++channel.over, over[x] = State::over;
+    else if (options.edge > 0 && over[x] == State::near && share(plain_or_infinite(plain)) > options.threshold)
+      over[x] = State::explained;
+    worst[x] = std::max(worst[x], apart);
   }
 
-  Eigen::Index width;
-  Window a, b;
-  Eigen::ArrayXXd differs;
-  Eigen::Index added = 0;
-  std::int64_t off_edges = 0;
+  static double plain_or_infinite(double difference) { return std::isnan(difference) ? infinity : difference; }
+
+  // What of a difference neither image has within the reach of edges.
+  double unexplained(Eigen::Index x, Eigen::Index c, double value_a, double value_b) const {
+    const bool exact = shape.channels[c].exact;
+    return std::max(b.around(x, judged, c, options.edge, value_a).beyond(value_a, exact),
+                    a.around(x, judged, c, options.edge, value_b).beyond(value_b, exact));
+  }
+
+  // Whether a channel spans more around a pixel than it does on a surface: where both images have an edge, a silhouette
+  // that is a fraction of a pixel aside explains a difference.
+  bool has_edge(const RowWindow& image, Eigen::Index x) const {
+    constexpr double least_edge = 24.0;  // [1/255]
+    for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(shape.channels.size()); ++c) {
+      const Surroundings found = image.around(x, judged, c, 1, 0.0);
+      if (!(found.low <= found.high)) continue;
+      const double span = found.low == found.high ? 0.0 : found.high - found.low;
+      if (share_of_white(shape.depth, shape.channels[c], span, found.low, found.high) > least_edge) return true;
+    }
+    return false;
+  }
+
+  void find_worst() {
+    const auto most = std::max_element(worst.begin(), worst.end());
+    if (*most <= result.apart) return;
+    result.apart = *most;
+    result.worst_x = static_cast<int>(most - worst.begin());
+    result.worst_y = static_cast<int>(judged);
+    double furthest = -1.0;
+    for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(shape.channels.size()); ++c) {
+      if (options.ignore_alpha && shape.channels[c].name == "A") continue;
+      const double value_a = a.at(judged)(result.worst_x, c), value_b = b.at(judged)(result.worst_x, c);
+      const double difference = plain_or_infinite(difference_of(value_a, value_b));
+      const double apart = share_of_white(shape.depth, shape.channels[c], difference, value_a, value_b);
+      if (apart <= furthest) continue;
+      furthest = apart;
+      result.worst_channel = shape.channels[c].name;
+      result.worst_a = value_a;
+      result.worst_b = value_b;
+    }
+  }
+
+  enum class State { near, explained, over };
+
+  const RowShape& shape;
+  ComparisonOptions options;
+  int radius;
+  double of_255;  // what a step of the values is
+  RowWindow a, b;
+  Eigen::ArrayXXd counted;
+  std::vector<State> over;    // of the pixels of a row
+  std::vector<double> worst;  // [1/255]
+  Eigen::Index judged = 0;
+  std::int64_t compared = 0;
+  double sum = 0.0, squares = 0.0;
+  Comparison result;
 };
 
 /// ꟻLIP's errors, summed over the pixels that count; a row's come when those below it are there.
@@ -201,70 +267,51 @@ struct RowComparison::Flips {
   Flip flip;
 };
 
+RowComparison::RowComparison(const RowShape& shape, const ComparisonOptions& options) : shape_(shape) {
+  if (shape.width <= 0 || shape.height <= 0) throw InputError("the images have no pixels");
+  differences_ = std::make_unique<Differences>(shape_, options);
+  if (shape.colours()) similarity_ = std::make_unique<Similarity>(shape.width, shape.height);
+  if (options.flip && similarity_) flips_ = std::make_unique<Flips>(shape.width, shape.height);
+}
+
 RowComparison::RowComparison(const Shape& a, const Shape& b, const ComparisonOptions& options)
-    : width_(a.width),
-      a_channels_(a.channels),
-      b_channels_(b.channels),
-      channels_(options.ignore_alpha ? 3 : std::max(a.channels, b.channels)),
-      threshold_(options.threshold) {
-  if (a.width != b.width || a.height != b.height)
-    throw InputError(
-        fmt::format("the images differ in size: {} x {} and {} x {}", a.width, a.height, b.width, b.height));
-  if (a.width <= 0 || a.height <= 0) throw InputError("the images have no pixels");
-  similarity_ = std::make_unique<Similarity>(a.width, a.height);
-  edges_ = std::make_unique<Edges>(a.width, a.channels, b.channels);
-  if (options.flip) flips_ = std::make_unique<Flips>(a.width, a.height);
+    : RowComparison(shape_of_pixels(a, b), options) {
+  a_channels_ = a.channels;
+  b_channels_ = b.channels;
 }
 
 RowComparison::~RowComparison() = default;
 
 void RowComparison::add_row(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* counts) {
-  Eigen::ArrayXd luma_a(width_), luma_b(width_), counted(width_), over(width_);
-  luma(a, a_channels_, luma_a);
-  luma(b, b_channels_, luma_b);
-  const std::uint8_t *row_a = a, *row_b = b;
-  std::int64_t sum = 0, squares = 0;
-  for (int x = 0; x < width_; ++x, a += a_channels_, b += b_channels_) {
-    counted(x) = !counts || counts[x] != 0 ? 1.0 : 0.0;
-    over(x) = 0.0;
-    if (counted(x) == 0.0) continue;
-    int largest = 0;
-    for (int c = 0; c < channels_; ++c) {
-      const int d = std::abs(channel(a, a_channels_, c) - channel(b, b_channels_, c));
-      largest = std::max(largest, d);
-      sum += d;
-      squares += d * d;
-    }
-    if (largest > result_.max) result_.max = largest, result_.worst_x = x, result_.worst_y = static_cast<int>(rows_);
-    over(x) = largest > threshold_ ? 1.0 : 0.0;
-    result_.over += largest > threshold_;
-    ++result_.pixels;
-  }
-  sum_ += static_cast<double>(sum);
-  squares_ += static_cast<double>(squares);
-  similarity_->add_row(luma_a, luma_b, counted);
-  edges_->add_row(row_a, row_b, over);
-  if (flips_) {
-    flips_->waiting.push_back(counted);
-    flips_->flip.add_row(row_a, a_channels_, row_b, b_channels_);
-  }
-  ++rows_;
+  add_row(values_of(a, a_channels_, shape_), values_of(b, b_channels_, shape_), counts);
+}
+
+void RowComparison::add_row(const ValueRow& a, const ValueRow& b, const std::uint8_t* counts) {
+  Eigen::ArrayXd counted = Eigen::ArrayXd::Ones(shape_.width);
+  if (counts)
+    for (Eigen::Index x = 0; x < counted.size(); ++x) counted(x) = counts[x] != 0 ? 1.0 : 0.0;
+  pixels_ += static_cast<std::int64_t>(counted.sum());
+  differences_->add_row(a, b, counted);
+  if (similarity_) add_seen(a, b, counted);
+}
+
+void RowComparison::add_seen(const ValueRow& a, const ValueRow& b, const Eigen::ArrayXd& counted) {
+  const std::vector<std::uint8_t> seen_a = seen_row(shape_, a), seen_b = seen_row(shape_, b);
+  similarity_->add_row(luma_of(seen_a), luma_of(seen_b), counted);
+  if (!flips_) return;
+  flips_->waiting.push_back(counted);
+  flips_->flip.add_row(seen_a.data(), 3, seen_b.data(), 3);
 }
 
 Comparison RowComparison::finish() {
-  if (result_.pixels == 0) throw InputError("no pixel counts: the mask is black everywhere; make white what counts");
-  const double values = static_cast<double>(result_.pixels) * channels_;
-  result_.mean = sum_ / values;
-  result_.rmse = std::sqrt(squares_ / values);
-  result_.psnr = result_.rmse > 0.0 ? 20.0 * std::log10(255.0 / result_.rmse) : std::numeric_limits<double>::infinity();
-  result_.ssim = similarity_->finish(result_.pixels);
-  result_.over_off_edges = edges_->finish();
+  if (pixels_ == 0) throw InputError("no pixel counts: the mask is black everywhere; make white what counts");
+  Comparison result = differences_->finish(pixels_);
+  result.ssim = similarity_ ? similarity_->finish(pixels_) : std::numeric_limits<double>::quiet_NaN();
   if (flips_) {
     flips_->flip.finish();
-    result_.flip = flips_->sum / static_cast<double>(result_.pixels);
+    result.flip = flips_->sum / static_cast<double>(pixels_);
   }
-  result_.share_over = static_cast<double>(result_.over) / static_cast<double>(result_.pixels);
-  return result_;
+  return result;
 }
 
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
@@ -273,76 +320,32 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   return comparison.finish();
 }
 
-Words<Metric> words(Metric) {
-  static constexpr Word<Metric> list[] = {{"max", Metric::max},
-                                          {"rmse", Metric::rmse},
-                                          {"psnr", Metric::psnr},
-                                          {"ssim", Metric::ssim},
-                                          {"flip", Metric::flip}};
-  return list;
-}
-
-double largest(Metric metric) {
-  switch (metric) {
-    case Metric::max:
-    case Metric::rmse:
-      return 255.0;
-    case Metric::psnr:
-      return 1000.0;
-    case Metric::ssim:
-    case Metric::flip:
-      return 1.0;
-  }
-  throw std::logic_error("a metric has no largest value");
-}
-
 namespace {
 
-bool holds(const Comparison& c, const MetricLimit& m) {
-  switch (m.metric) {
-    case Metric::max:
-      return c.max <= m.limit;
-    case Metric::rmse:
-      return c.rmse <= m.limit;
-    case Metric::psnr:
-      return c.psnr >= m.limit;
-    case Metric::ssim:
-      return c.ssim >= m.limit;
-    case Metric::flip:
-      return c.flip.value() <= m.limit;
-  }
-  throw std::logic_error("a metric has no rule");
+constexpr double difference_gain = 8.0;
+
+std::uint8_t gained(double of_255) {
+  return static_cast<std::uint8_t>(std::min(std::lround(std::min(difference_gain * of_255, 255.0)), 255L));
 }
 
 }  // namespace
 
-bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance) {
-  if (!tolerance.metrics.empty())
-    return std::all_of(tolerance.metrics.begin(), tolerance.metrics.end(),
-                       [&](const MetricLimit& limit) { return holds(comparison, limit); });
-  const bool few = tolerance.pixels ? comparison.over <= *tolerance.pixels : comparison.share_over <= tolerance.share;
-  return comparison.max <= tolerance.worst && few;
-}
-
-std::string difference_text(const Comparison& c, int threshold) {
-  if (c.max == 0) return "equal";
-  const std::string worst = fmt::format("worst {} at ({}, {})", c.max, c.worst_x, c.worst_y);
-  if (c.over == 0) return fmt::format("no pixel over {}/255, {}", threshold, worst);
-  const std::string where = c.over_off_edges == 0        ? "all within 1 px of an edge"
-                            : c.over_off_edges == c.over ? "none at an edge"
-                                                         : fmt::format("{} off any edge", c.over_off_edges);
-  const double percent = 100.0 * c.share_over;
-  return fmt::format("{} px over {}/255 ({:.{}g} %), {}, {}", c.over, threshold, percent, percent < 10.0 ? 2 : 3, worst,
-                     where);
-}
-
 void difference_row(const std::uint8_t* a, int a_channels, const std::uint8_t* b, int b_channels, int width,
                     std::uint8_t* row) {
-  constexpr int gain = 8;
   for (int x = 0; x < width; ++x)
-    for (int c = 0; c < 3; ++c)
-      row[3 * x + c] =
-          static_cast<std::uint8_t>(std::min(gain * std::abs(a[x * a_channels + c] - b[x * b_channels + c]), 255));
+    for (int c = 0; c < 3; ++c) row[3 * x + c] = gained(std::abs(a[x * a_channels + c] - b[x * b_channels + c]));
+}
+
+void difference_row(const RowShape& shape, const ValueRow& a, const ValueRow& b, std::uint8_t* row) {
+  for (Eigen::Index x = 0; x < a.rows(); ++x) {
+    const auto apart = [&](Eigen::Index c) {
+      const double difference = difference_of(a(x, c), b(x, c));
+      return share_of_white(shape.depth, shape.channels[c], difference, a(x, c), b(x, c));
+    };
+    double furthest = 0.0;
+    for (Eigen::Index c = 0; c < a.cols(); ++c) furthest = std::max(furthest, apart(c));
+    for (Eigen::Index c = 0; c < 3; ++c) row[3 * x + c] = gained(shape.depth == Depth::floats ? furthest : apart(c));
+  }
 }
 
 }  // namespace billow::render

@@ -1,4 +1,4 @@
-// OpenEXR files out, and whether they are whole. exr.cpp is the only file that knows OpenEXR.
+// OpenEXR files out, and whether they are whole. exr.cpp and exr_rows.cpp alone know OpenEXR.
 #pragma once
 
 #include <filesystem>

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "render/image/big_endian.h"
 
 namespace billow::render {
 namespace {
@@ -79,14 +80,10 @@ Stream open_to_read(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (std::filesystem::is_directory(status)) refuse(file, "is a folder, not a PNG image");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse(file, "is not a regular file, so it is not read as an image");
+    refuse(file, "is not a regular file, so it is not read as an image; save it as one");
   Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!stream) refuse(file, fmt::format("cannot open the image: {}", std::strerror(errno)));
   return stream;
-}
-
-std::uint32_t big_endian(const png_byte* bytes) {
-  return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 8 | bytes[3];
 }
 
 std::uintmax_t bytes_of(std::FILE* stream) {
@@ -119,8 +116,8 @@ void check_header(const std::filesystem::path& file, std::FILE* stream) {
   std::rewind(stream);
 }
 
-// Everything becomes 8-bit RGB, or RGBA where the file has transparency.
-void read_header(PngReader& reader, std::FILE* stream) {
+// Everything becomes RGB, or RGBA where the file has transparency.
+void read_header(PngReader& reader, std::FILE* stream, PngDepth depth) {
   png_structp png = reader.png;
   png_init_io(png, stream);
   png_set_user_limits(png, max_read_size, max_read_size);
@@ -130,7 +127,7 @@ void read_header(PngReader& reader, std::FILE* stream) {
   png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   png_read_info(png, reader.info);
   png_set_expand(png);
-  png_set_scale_16(png);
+  if (depth == PngDepth::eight) png_set_scale_16(png);
   png_set_gray_to_rgb(png);
   png_set_interlace_handling(png);
   png_read_update_info(png, reader.info);
@@ -207,28 +204,32 @@ void write_rows(const std::filesystem::path& file, int width, int height, const 
 /// A PNG file that is being read.
 class PngSource {
  public:
-  PngSource(Stream stream, std::filesystem::path file) : file_(std::move(file)), stream_(std::move(stream)) {
+  PngSource(Stream stream, std::filesystem::path file, PngDepth depth = PngDepth::eight)
+      : file_(std::move(file)), stream_(std::move(stream)) {
     check_header(file_, stream_.get());
-    check(succeeds(reader_.png, [&] { read_header(reader_, stream_.get()); }));
+    check(succeeds(reader_.png, [&] { read_header(reader_, stream_.get(), depth); }));
     width = static_cast<int>(png_get_image_width(reader_.png, reader_.info));
     height = static_cast<int>(png_get_image_height(reader_.png, reader_.info));
     channels = static_cast<int>(png_get_channels(reader_.png, reader_.info));
+    bits = png_get_bit_depth(reader_.png, reader_.info);
     if (png_get_interlace_type(reader_.png, reader_.info) == PNG_INTERLACE_NONE) return;
-    held_ = Image(width, height, channels);
+    held_.resize(row_bytes() * height);
     std::vector<png_bytep> rows;
-    for (int y = 0; y < height; ++y) rows.push_back(held_.row(y));
+    for (int y = 0; y < height; ++y) rows.push_back(held_.data() + row_bytes() * y);
     check(succeeds(reader_.png, [&] { png_read_image(reader_.png, rows.data()); }));
   }
 
   void read(std::uint8_t* row) {
-    if (!held_.pixels.empty())
-      std::copy_n(held_.row(next_), std::size_t(width) * channels, row);
+    if (!held_.empty())
+      std::copy_n(held_.data() + row_bytes() * next_, row_bytes(), row);
     else
       check(succeeds(reader_.png, [&] { png_read_row(reader_.png, row, nullptr); }));
     if (++next_ == height) check(succeeds(reader_.png, [&] { png_read_end(reader_.png, nullptr); }));
   }
 
-  int width = 0, height = 0, channels = 0;
+  std::size_t row_bytes() const { return std::size_t(width) * channels * (bits / 8); }
+
+  int width = 0, height = 0, channels = 0, bits = 8;
 
  private:
   void check(bool succeeded) const {
@@ -238,7 +239,7 @@ class PngSource {
   std::filesystem::path file_;
   Stream stream_;
   PngReader reader_;
-  Image held_;  // of an interlaced file, whose rows come in seven parts
+  std::vector<std::uint8_t> held_;  // all rows of an interlaced file, which come in seven parts
   int next_ = 0;
 };
 
@@ -252,13 +253,13 @@ Image image_of(PngSource source) {
 
 }  // namespace
 
-PngRows::PngRows(const std::filesystem::path& file)
-    : source_(std::make_unique<PngSource>(open_to_read(file), file)),
-      row_(std::size_t(source_->width) * source_->channels) {}
+PngRows::PngRows(const std::filesystem::path& file, PngDepth depth)
+    : source_(std::make_unique<PngSource>(open_to_read(file), file, depth)), row_(source_->row_bytes()) {}
 PngRows::~PngRows() = default;
 int PngRows::width() const { return source_->width; }
 int PngRows::height() const { return source_->height; }
 int PngRows::channels() const { return source_->channels; }
+int PngRows::bits() const { return source_->bits; }
 
 const std::uint8_t* PngRows::next() {
   source_->read(row_.data());

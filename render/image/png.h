@@ -21,17 +21,22 @@ class PngSource;
 /// memory than its pixels do: what else is in the file is skipped.
 Image read_png(const std::filesystem::path& file);
 
+/// What becomes of values of 16 bits: they are rounded to 8, or stay as they are.
+enum class PngDepth { eight, own };
+
 /// The same image row by row from the top, for images too large to hold; only interlaced ones are held.
 class PngRows {
  public:
   /// Throws as read_png.
-  explicit PngRows(const std::filesystem::path& file);
+  explicit PngRows(const std::filesystem::path& file, PngDepth depth = PngDepth::eight);
   ~PngRows();
   int width() const;
   int height() const;
   int channels() const;
-  /// The next of height() rows of width() * channels() values, which stay until the next call. Throws InputError where
-  /// the file is damaged.
+  /// Of a value: 8, or 16 where the file has such and they stay.
+  int bits() const;
+  /// The next of height() rows of width() * channels() values, of 16 bits the higher byte first, which stay until the
+  /// next call. Throws InputError where the file is damaged.
   const std::uint8_t* next();
 
  private:

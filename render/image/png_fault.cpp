@@ -12,14 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "render/image/big_endian.h"
+
 namespace billow::render {
 namespace {
 
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-
-std::uint32_t big_endian(const unsigned char* bytes) {
-  return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 8 | bytes[3];
-}
 
 /// A file's chunks, one after another.
 class Chunks {

@@ -12,9 +12,9 @@
 namespace billow::render {
 namespace {
 
-constexpr std::size_t pixel_bytes = 3;
+constexpr std::size_t strip_pixel_bytes = 3;
 constexpr int tile_columns = 16;  // one row of a tile is what a read of the spool finds side by side
-constexpr std::size_t tile_row_bytes = tile_columns * pixel_bytes;
+constexpr std::size_t tile_row_bytes = tile_columns * strip_pixel_bytes;
 constexpr std::size_t block_bytes = std::size_t{256} << 10;  // bounds the memory of putting rows together
 
 }  // namespace
@@ -30,7 +30,7 @@ struct VelocityStrip::Impl {
   int first_row = 0, block_rows = 0;
 
   int rows() const { return static_cast<int>(order.size()); }
-  std::size_t row_bytes() const { return std::size_t(columns) * pixel_bytes; }
+  std::size_t row_bytes() const { return std::size_t(columns) * strip_pixel_bytes; }
   void load_block(int row);
   void load_tile(int tile_number, std::vector<std::uint8_t>& tile_rows);
 };
@@ -47,13 +47,13 @@ void VelocityStrip::Impl::load_block(int row) {
 // The last tile is still in memory unless it is full.
 void VelocityStrip::Impl::load_tile(int number, std::vector<std::uint8_t>& tile_rows) {
   const int first_column = number * tile_columns;
-  const std::size_t bytes = std::size_t(std::min(tile_columns, columns - first_column)) * pixel_bytes;
+  const std::size_t bytes = std::size_t(std::min(tile_columns, columns - first_column)) * strip_pixel_bytes;
   if (bytes < tile_row_bytes)
     std::copy_n(&tile[first_row * tile_row_bytes], tile_rows.size(), tile_rows.data());
   else
     spool.read(tile_rows.data(), tile_rows.size(), (std::size_t(number) * rows() + first_row) * tile_row_bytes);
   for (int r = 0; r < block_rows; ++r)
-    std::copy_n(&tile_rows[r * tile_row_bytes], bytes, &block[r * row_bytes() + first_column * pixel_bytes]);
+    std::copy_n(&tile_rows[r * tile_row_bytes], bytes, &block[r * row_bytes() + first_column * strip_pixel_bytes]);
 }
 
 VelocityStrip::VelocityStrip(const std::filesystem::path& file, std::vector<int> order, double velocity_range)
@@ -63,7 +63,7 @@ VelocityStrip::~VelocityStrip() = default;
 
 void VelocityStrip::add_column(const Eigen::MatrixX3d& velocity) {
   const int place = impl_->columns % tile_columns;
-  auto* pixel = impl_->tile.data() + place * pixel_bytes;
+  auto* pixel = impl_->tile.data() + place * strip_pixel_bytes;
   for (const int particle : impl_->order) {
     const Rgb8 colour = velocity_rgb(velocity.row(particle).transpose(), impl_->velocity_range);
     std::copy(colour.begin(), colour.end(), pixel);

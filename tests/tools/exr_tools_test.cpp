@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/mesh_files.h"
 #include "tests/support/tool.h"
 
@@ -59,6 +61,42 @@ TEST_F(ExrTools, ReadTheDepthViewAs16Bits) {
   ASSERT_EQ(info.status, 0) << info.errors;
   EXPECT_THAT(info.output, testing::HasSubstr("1 channel, uint16"));
   EXPECT_THAT(info.output, testing::HasSubstr("near"));
+}
+
+// What other programs write, in every packing that keeps values, reads as the same.
+TEST(ForeignExr, ReadsTheSameHoweverItIsPacked) {
+  const test::TemporaryFolder folder;
+  const auto oiiotool = [&](std::vector<std::string> arguments) {
+    const test::ToolResult result = run_program("oiiotool", arguments, folder.path());
+    ASSERT_EQ(result.status, 0) << result.errors;
+  };
+  oiiotool({"--pattern", "noise:type=gaussian:mean=0.5:stddev=0.2", "70x50", "3", "-d", "half", "-o", "a.exr"});
+  std::vector<std::string> files = {"float.exr", "tiled.exr"};
+  oiiotool({"a.exr", "-d", "float", "-o", "float.exr"});
+  oiiotool({"a.exr", "--tile", "16", "32", "-d", "half", "-o", "tiled.exr"});
+  for (const std::string packing : {"none", "rle", "zip", "zips", "piz", "pxr24"}) {
+    files.push_back(packing + ".exr");
+    oiiotool({"a.exr", "--compression", packing, "-d", "half", "-o", files.back()});
+  }
+  for (const std::string& file : files)
+    EXPECT_EQ(test::run_tool({"compare", "a.exr", file, "--channel", "0", "--worst", "0"}, folder.path()).status, 0)
+        << file;
+  oiiotool({"a.exr", "float.exr", "--siappend", "-o", "parts.exr"});
+  EXPECT_THAT(test::run_tool({"compare", "a.exr", "parts.exr"}, folder.path()).output,
+              testing::HasSubstr("only in parts.exr"));
+}
+
+TEST(ForeignExr, DiffersByWhatIdiffFinds) {
+  const test::TemporaryFolder folder;
+  run_program("oiiotool", {"--pattern", "noise:seed=1", "70x50", "4", "-d", "float", "-o", "a.exr"}, folder.path());
+  run_program("oiiotool", {"--pattern", "noise:seed=2", "70x50", "4", "-d", "float", "-o", "b.exr"}, folder.path());
+  const std::string seen = run_program("idiff", {"a.exr", "b.exr"}, folder.path()).output;
+  const auto number = [&](const std::string& name) { return std::stod(seen.substr(seen.find(name) + name.size())); };
+  const auto json =
+      nlohmann::json::parse(test::run_tool({"compare", "a.exr", "b.exr", "--json"}, folder.path()).output)["images"][0];
+  EXPECT_NEAR(json["mean"], number("Mean error = "), 1e-5);
+  EXPECT_NEAR(json["rmse"], number("RMS error = "), 1e-5);
+  EXPECT_NEAR(json["max"], number("Max error  = "), 1e-5);
 }
 
 }  // namespace

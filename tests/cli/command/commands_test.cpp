@@ -136,6 +136,55 @@ TEST_F(Commands, HelpListsWords) {
   EXPECT_NE(wrong.errors.find("there is no 'jsn'; did you mean 'json'?"), std::string::npos) << wrong.errors;
 }
 
+TEST_F(Commands, HelpOfEveryCommandListsWords) {
+  const std::string help = run({"--help-all"}).output;
+  EXPECT_NE(help.find("Differences that edges"), std::string::npos);
+  EXPECT_EQ(help.find("->"), std::string::npos);
+}
+
+TEST_F(Commands, ErrorsAreJsonWhereProgressIs) {
+  const auto error = [&](std::vector<std::string> arguments) {
+    const std::string errors = run(arguments).errors;
+    EXPECT_EQ(errors.find('\n'), errors.size() - 1) << errors;
+    return Json::parse(errors);
+  };
+  folder_.write("slip.yaml", "billow: 1\nbodees: []\n");
+  EXPECT_EQ(error({"check", "slip.yaml", "--progress", "json"}), (Json{{"file", "slip.yaml"},
+                                                                       {"line", 2},
+                                                                       {"column", 1},
+                                                                       {"message", "unknown key 'bodees' in the scene"},
+                                                                       {"hint", "did you mean 'bodies'?"},
+                                                                       {"exit", 4}}));
+  EXPECT_EQ(error({"render", "nowhere.yaml", "--progress=json"})["file"], "nowhere.yaml");
+  EXPECT_EQ(error({"check", "--progress", "json"})["exit"], 2);
+  EXPECT_EQ(error({"chek", "x", "--progress", "json"})["hint"], "did you mean 'check'?");
+}
+
+TEST_F(Commands, ReadASceneFromStandardInput) {
+  const auto shell = [&](const std::string& line) {
+    return test::run_program("bash", {"-c", line, BILLOW_TOOL}, folder_.path());
+  };
+  const ToolResult good = shell("\"$0\" check - < scene.yaml");
+  EXPECT_EQ(good.status, 0) << good.errors;
+  EXPECT_EQ(good.output, run({"check", "scene.yaml"}).output);
+  EXPECT_EQ(good.errors.find("<stdin>: good."), 0u) << good.errors;
+  EXPECT_EQ(shell("echo 'bodees: 1' | \"$0\" check -").errors.find("<stdin>:1:1: "), 0u);
+  EXPECT_EQ(shell("\"$0\" stability - < scene.yaml").output, run({"stability", "scene.yaml"}).output);
+  const ToolResult run_of_none = shell("\"$0\" render - < scene.yaml");
+  EXPECT_EQ(run_of_none.status, 2);
+  EXPECT_NE(run_of_none.errors.find("save the scene as a file"), std::string::npos) << run_of_none.errors;
+}
+
+TEST_F(Commands, SayWhatToDoWithAPipe) {
+  const ToolResult result =
+      test::run_program("bash", {"-c", "\"$0\" check <(cat scene.yaml)", BILLOW_TOOL}, folder_.path());
+  EXPECT_EQ(result.status, 4);
+  EXPECT_NE(
+      result.errors.find("this is a pipe, not a file; save what comes through it as one, or have 'billow check -'"),
+      std::string::npos)
+      << result.errors;
+}
+
 TEST_F(Commands, DoctorSaysWhatIsMissingAndWhatThatCosts) {
   const ToolResult found = run({"doctor"});
   EXPECT_NE(found.output.find("gnuplot      found"), std::string::npos) << found.output;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/image/exr.h"
 #include "render/image/png.h"
 #include "tests/support/browser.h"
 #include "tests/support/golden.h"
@@ -94,6 +95,41 @@ TEST_F(CompareReport, LooksAsItShould) {
   const test::Screenshot shot = test::screenshot(folder_.path() / "look", "index.html", 900, 1250);
   EXPECT_THAT(shot.console, IsEmpty());
   EXPECT_GOLDEN(shot.image, "compare_report");
+}
+
+// Frames of a colour of 0.25 and a velocity, whose X differs in one pixel of the last.
+TEST(CompareReportOfNumbers, ShowsTheirLayersAndValues) {
+  const test::TemporaryFolder folder;
+  for (const char* side : {"a", "b"}) {
+    fs::create_directories(folder.path() / side);
+    for (int number = 1; number <= 3; ++number) {
+      render::DataImage image{4, 3, {}};
+      for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>(12, 0.25f)});
+      for (const char* name : {"velocity.X", "velocity.Y", "velocity.Z"})
+        image.channels.push_back({name, std::vector<float>(12, 0.0f)});
+      if (number == 3) image.channels[3].value[6] = side[0] == 'a' ? 1.5f : -2.0f;
+      render::write_exr(folder.path() / side / ("f" + std::to_string(number) + ".exr"), image);
+    }
+  }
+  ASSERT_EQ(test::run_tool({"compare", "a", "b", "--report", "page"}, folder.path()).status, 3);
+  const fs::path page = fs::path(BILLOW_SOURCE_DIR) / "tests/cli/command/compare_values_visit.html";
+  fs::copy_file(page, folder.path() / "page" / page.filename());
+  const test::Visit visit = test::visit(folder.path() / "page", "compare_values_visit.html");
+  EXPECT_THAT(visit.console, IsEmpty());
+  const Json& seen = visit.result;
+  ASSERT_TRUE(seen.contains("clicked")) << seen;
+  EXPECT_EQ(seen["picture"], "f3.exr");
+  EXPECT_EQ(seen["layers"], (Json{"colour (R, G, B)", "velocity (velocity.X, velocity.Y, velocity.Z)"}));
+  EXPECT_EQ(seen["chosen"], 1);
+  EXPECT_EQ(seen["values"],
+            "(2, 1)\nvelocity.X   A 1.5   B -2   apart 3.5\nvelocity.Y   A 0   B 0   apart 0\n"
+            "velocity.Z   A 0   B 0   apart 0");
+  EXPECT_EQ(seen["caption"], "A: a/f3.exr, -2 to 2");
+  EXPECT_EQ(seen["grey"], (Json{128, 128, 128}));
+  EXPECT_EQ(seen["colour"], (Json{137, 137, 137}));    // of 0.25 in linear light
+  EXPECT_EQ(seen["brighter"], (Json{188, 188, 188}));  // of 0.5
+  EXPECT_EQ(seen["difference"], (Json{0, 0, 0}));
+  EXPECT_EQ(seen["clicked"], "f1.exr");
 }
 
 }  // namespace

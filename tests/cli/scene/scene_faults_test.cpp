@@ -266,7 +266,8 @@ TEST(SceneFaults, Files) {
   expect_messages({
       {"mesh: cloth.obj", "mesh: missing.obj", "scene.yaml:7:13: there is no mesh file missing.obj"},
       {"mesh: cloth.obj", "mesh: no/such/mesh.obj", "scene.yaml:7:13: there is no mesh file no/such/mesh.obj"},
-      {"mesh: cloth.obj", "mesh: /", "scene.yaml:7:13: the mesh / is not a regular file"},
+      {"mesh: cloth.obj", "mesh: /",
+       "scene.yaml:7:13: the mesh / is not a regular file; name one, or save what comes from it as one"},
       {"mesh: cloth.obj", "mesh: scene.yaml",
        "scene.yaml:7:13: cannot read mesh scene.yaml: its extension '.yaml' is none of .obj .off .stl .ply .gltf .glb; "
        "convert it to one of these"},

@@ -149,6 +149,120 @@ TEST(Compare, GivesTheSimilarityOfWindowsOneByOne) {
   }
 }
 
+// A half plane whose border lies at `border`, with the mixed pixel that sampling makes of it.
+Image half_plane(double border, int extra_x = -1) {
+  Image image(20, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const double share = std::clamp(border + 0.3 * y - x, 0.0, 1.0);
+        image.row(y)[3 * x + c] = static_cast<std::uint8_t>(std::lround(200.0 - 150.0 * share));
+      }
+  if (extra_x >= 0) image.row(5)[3 * extra_x] = 90;
+  return image;
+}
+
+TEST(Edge, ExplainsASilhouetteThatIsUpToAPixelAside) {
+  for (const double by : {0.1, 0.5, 0.99, 1.0}) {
+    EXPECT_GT(compare(half_plane(8), half_plane(8 + by)).over, 0) << by;
+    const Comparison c = compare(half_plane(8), half_plane(8 + by), {.edge = 1});
+    EXPECT_EQ(c.over, 0) << by;
+    EXPECT_EQ(c.max, 0) << by;
+    EXPECT_EQ(c.explained, compare(half_plane(8), half_plane(8 + by)).over) << by;
+  }
+  EXPECT_GT(compare(half_plane(8), half_plane(10), {.edge = 1}).over, 0);
+  EXPECT_EQ(compare(half_plane(8), half_plane(10), {.edge = 2}).over, 0);
+}
+
+TEST(Edge, ExplainsNothingThatOnlyOneImageHas) {
+  EXPECT_EQ(compare(half_plane(8), half_plane(8, 17), {.edge = 1}).over, 1);
+  EXPECT_EQ(compare(half_plane(8, 17), half_plane(8), {.edge = 1}).over, 1);
+  EXPECT_EQ(compare(half_plane(8, 17), half_plane(8, 16), {.edge = 1}).over, 0);  // but moved by a pixel
+  EXPECT_EQ(compare(noisy(20, 20), offset(noisy(20, 20), 20), {.edge = 0}).over, 400);
+  Image flat(20, 20), lighter(20, 20);
+  std::fill(lighter.pixels.begin(), lighter.pixels.end(), std::uint8_t{10});
+  EXPECT_EQ(compare(flat, lighter, {.edge = 4}).over, 400);
+}
+
+// Each pixel's window by hand.
+TEST(Edge, IsWhatWindowsOneByOneSay) {
+  const Image a = noisy(23, 17);
+  Image b = a;
+  for (std::size_t k = 0; k < b.pixels.size(); k += 3) b.pixels[k] = static_cast<std::uint8_t>(255 - b.pixels[k]);
+  const auto beyond = [](const Image& image, int value, int x, int y, int c, int radius) {
+    int low = 255, high = 0;
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
+      for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u) {
+        low = std::min<int>(low, image.row(v)[3 * u + c]);
+        high = std::max<int>(high, image.row(v)[3 * u + c]);
+      }
+    return std::max({0, low - value, value - high});
+  };
+  for (const int radius : {1, 2, 4}) {
+    double sum = 0.0;
+    int most = 0;
+    for (int y = 0; y < 17; ++y)
+      for (int x = 0; x < 23; ++x)
+        for (int c = 0; c < 3; ++c) {
+          const int left = std::max(beyond(b, a.row(y)[3 * x + c], x, y, c, radius),
+                                    beyond(a, b.row(y)[3 * x + c], x, y, c, radius));
+          sum += left;
+          most = std::max(most, left);
+        }
+    const Comparison c = compare(a, b, {.edge = radius});
+    EXPECT_EQ(c.max, most) << radius;
+    EXPECT_NEAR(c.mean, sum / (23 * 17 * 3), 1e-12) << radius;
+  }
+}
+
+// Pairs of values of one channel, in a row.
+Comparison compare_floats(const std::vector<double>& a, const std::vector<double>& b,
+                          const ComparisonOptions& options = {}, bool exact = false) {
+  const int width = static_cast<int>(a.size());
+  RowComparison comparison(RowShape{width, 1, 0, 0, Depth::floats, {{"Z", exact}}}, options);
+  comparison.add_row(ValueRow(Eigen::Map<const Eigen::ArrayXd>(a.data(), width)),
+                     ValueRow(Eigen::Map<const Eigen::ArrayXd>(b.data(), width)));
+  return comparison.finish();
+}
+
+TEST(CompareFloats, AreApartAbsolutelyBelowOneAndInProportionAbove) {
+  const Comparison c = compare_floats({0.0, 0.5, 300.0, 300.0}, {0.01, 0.52, 303.0, 306.0});
+  EXPECT_EQ(c.over, 2);  // 0.02 and 6 of 306 are over 3/255, 0.01 and 3 of 303 are not
+  EXPECT_DOUBLE_EQ(c.max, 6.0);
+  EXPECT_NEAR(c.apart, 255.0 * 0.02, 1e-9);
+  EXPECT_NEAR(c.mean, (0.01 + 0.02 + 3.0 + 6.0) / 4.0, 1e-12);
+  EXPECT_TRUE(std::isnan(c.ssim));
+  EXPECT_EQ(c.worst_channel, "Z");
+  EXPECT_EQ(c.worst_x, 1);
+}
+
+TEST(CompareFloats, TakeNanAndInfinityForValues) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const Comparison same = compare_floats({nan, inf, -inf, 1.0}, {nan, inf, -inf, 1.0});
+  EXPECT_EQ(same.over, 0);
+  EXPECT_EQ(same.both_nan, 1);
+  EXPECT_EQ(difference_text(same, 3), "equal, 1 value NaN in both");
+  const Comparison c = compare_floats({nan, inf, 2.0, 1.0}, {1.0, -inf, inf, 1.5});
+  EXPECT_EQ(c.not_finite, 3);
+  EXPECT_EQ(c.over, 4);
+  EXPECT_EQ(c.max, 0.5);
+  EXPECT_EQ(c.rmse, 0.5);  // of what is finite
+  EXPECT_FALSE(within_tolerance(c, {.worst = 255, .share = 1}));
+  EXPECT_FALSE(within_tolerance(c, {.metrics = {{Metric::rmse, 10.0}}}));
+  EXPECT_EQ(difference_text(c, 3),
+            "4 px over 0.0118 (100 %), worst infinite in Z at (0, 0): nan and 1, 1 off any edge, 3 values NaN "
+            "or infinite in one alone");
+  // A silhouette before nothing, a pixel aside.
+  EXPECT_EQ(compare_floats({inf, inf, 2.0, 2.0}, {inf, 2.0, 2.0, 2.0}, {.edge = 1}).over, 0);
+}
+
+TEST(CompareFloats, KnowIdentitiesOnlyAsTheSameOrNot) {
+  EXPECT_EQ(compare_floats({1e-20}, {2e-20}).over, 0);
+  EXPECT_EQ(compare_floats({1e-20}, {2e-20}, {}, true).apart, 255.0);
+  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 3, 3, 3}, {.edge = 1}, true).over, 0);
+  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 2, 3, 3}, {.edge = 1}, true).over, 1);  // 2 is nothing between 1 and 3
+}
+
 TEST(Difference, IsAmplifiedAndClamped) {
   const std::uint8_t a[] = {20, 30, 40, 255, 100, 50, 60, 0}, b[] = {22, 30, 40, 10, 55, 60};
   std::uint8_t seen[6];
