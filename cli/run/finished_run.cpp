@@ -21,7 +21,6 @@ namespace billow::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 std::optional<render::View> view_named(std::string_view name) {
   for (const render::ViewRow& row : render::views())
@@ -54,7 +53,7 @@ void read_colours(FinishedRun& run, const std::string& effective_scene) {
   if (const auto range = scene_value(*scene, "spectrum", "range")) run.spectrum_range = parse_number(*range).value;
 }
 
-FinishedRun run_of(const fs::path& folder, const Json& record) {
+FinishedRun run_of(const fs::path& folder, const nlohmann::json& record) {
   FinishedRun run;
   run.folder = folder;
   run.title = fs::path(record.at("scene").at("file").get<std::string>()).stem().string();
@@ -62,19 +61,19 @@ FinishedRun run_of(const fs::path& folder, const Json& record) {
   run.simulated_time = record.at("solver").at("simulated_time").get<double>();
   run.velocity_range = record.at("velocity_range").get<double>();
   read_colours(run, record.at("scene").at("effective").get<std::string>());
-  for (const Json& name : record.at("views"))
+  for (const nlohmann::json& name : record.at("views"))
     if (const render::View view = view_named(name.get<std::string>()).value(); render::is_png(view))
       run.views.push_back(view);
   std::vector<long> drawn = record.value("drawn", std::vector<long>());  // where not all that were simulated
-  for (const Json& frame : record.at("frames"))
+  for (const nlohmann::json& frame : record.at("frames"))
     if (const long number = frame.at("frame"); drawn.empty() || std::binary_search(drawn.begin(), drawn.end(), number))
       run.frames.emplace_back(number, frame.at("time").get<double>());
   return run;
 }
 
 // A run that is going on, or ended before it could list its frames.
-[[noreturn]] void refuse_unfinished(const fs::path& file, const Json& record) {
-  const Json status = record.value("status", Json());
+[[noreturn]] void refuse_unfinished(const fs::path& file, const nlohmann::json& record) {
+  const nlohmann::json status = record.value("status", nlohmann::json());
   const char* what = status == "running"       ? "this run has not ended; wait for it, or finish it"
                      : status == "failed"      ? "this run has failed; finish it"
                      : status == "interrupted" ? "this run was interrupted; finish it"
@@ -99,7 +98,7 @@ render::View view_of_run(const FinishedRun& run, std::string_view name) {
 
 FinishedRun read_finished_run(const fs::path& folder) {
   const fs::path file = folder / word_of(RunFile::record);
-  const Json record = Json::parse(record_text(file), nullptr, false);
+  const nlohmann::json record = nlohmann::json::parse(record_text(file), nullptr, false);
   if (record.is_object() && !record.contains("frames")) refuse_unfinished(file, record);
   FinishedRun run;
   try {

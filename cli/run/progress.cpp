@@ -16,8 +16,6 @@ namespace billow::cli {
 
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double long_phase = 0.5;  // [s] a phase that lasts longer is said
 
 double seconds_of(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -55,7 +53,7 @@ void Progress::phase(std::string_view name, std::string_view subject) {
 
 std::string Progress::announcement(std::string_view name, std::string_view subject) const {
   if (style_ == ProgressStyle::json)
-    return printable_json(json_text(Json{{"phase", name}, {"subject", subject}})) + "\n";
+    return printable_json(json_text(nlohmann::json{{"phase", name}, {"subject", subject}})) + "\n";
   const std::string line = fmt::format("{}{}{} ...", name, subject.empty() ? "" : " ", printable(subject));
   return redraw_ ? fmt::format("{}{}", wipe, line) : line + "\n";
 }
@@ -94,7 +92,7 @@ void Progress::print_line(long done, double time) {
   const double elapsed = seconds_of(last_ - begin_), rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
   const double left = rate > 0.0 ? static_cast<double>(total_ - done) / rate : 0.0;
   if (style_ == ProgressStyle::json)
-    return say_json(json_text(Json{
+    return say_json(json_text(nlohmann::json{
         {"stage", stage_}, {"done", done}, {"total", total_}, {"time", time}, {"rate", rate}, {"seconds_left", left}}));
   const std::string line = fmt::format("{}: frame {} of {}, t = {:.2f} s, {:.1f} frames/s, {} left", stage_, done,
                                        total_, time, rate, time_left(left));
@@ -104,7 +102,7 @@ void Progress::print_line(long done, double time) {
 void Progress::say(const std::string& line) {
   if (style_ == ProgressStyle::none) return;
   end();
-  style_ == ProgressStyle::json ? say_json(json_text(Json{{"message", line}})) : say_message(line);
+  style_ == ProgressStyle::json ? say_json(json_text(nlohmann::json{{"message", line}})) : say_message(line);
 }
 
 void Progress::end() {

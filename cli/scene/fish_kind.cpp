@@ -16,8 +16,6 @@
 namespace billow::cli {
 namespace {
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
 void read_rings(MapReader& mass, std::array<double, sim::fish_rings>& rings) {
   const Key& key = mass.key("rings");
   if (const Node* node = mass.find("rings")) {

@@ -2,13 +2,12 @@
 #include "cli/scene/placement_reader.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
+
+#include "cli/scene/scene_parts.h"
 
 namespace billow::cli {
 
 namespace {
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 // [x, y, z] in degrees: about the fixed axes, x first, then y, then z.
 Eigen::Matrix3d rotation_about_axes(const Eigen::Vector3d& degrees) {

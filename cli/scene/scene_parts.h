@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "sim/mesh/selection.h"
 
 namespace billow::cli {
+
+/// [rad]
+inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// Runs `work` and puts the place in the scene before whatever it finds wrong.
 template <class Work>

@@ -11,7 +11,7 @@
 namespace billow::render {
 namespace {
 
-constexpr GLenum ramp_unit = 0, albedo_unit = 1;
+constexpr GLenum ramp_unit = 0, surface_unit = 1;
 constexpr float backdrop = 0.045f;  // linear light: neutral, darker than a body at rest
 
 Image ramp_image() {
@@ -69,7 +69,7 @@ class VelocityPainter : public ViewPainter {
     bind_texture(frame.gl(), ramp_unit, ramp_.name());
     for (const Albedo& albedo : frame.albedos) {
       if (albedo.scenery) continue;
-      velocity_.use_for(albedo, albedo_unit);
+      velocity_.use_for(albedo, surface_unit);
       frame.meshes[albedo.body].draw(albedo.triangles);
     }
     frame.surroundings.fill_behind_bodies(frame.target);

@@ -15,18 +15,18 @@ namespace {
 
 // Lengths are in units of a pixel of a frame of 1280 x 720, unless said otherwise.
 constexpr double font_size = 13.0;
-constexpr double ink = 0.16, paper = 0.98,
+constexpr double letter_ink = 0.16, paper = 0.98,
                  paper_alpha = 0.96;  // light enough and thick enough to be read over anything
 
 // The block.
 constexpr double bar_width = 190.0, bar_height = 12.0, bar_pitch = 20.0;
-constexpr double padding = 14.0, name_width = 16.0, title_height = 24.0, tick_height = 20.0;
+constexpr double padding = 14.0, name_width = 16.0, block_title_height = 24.0, tick_height = 20.0;
 constexpr double block_margin = 20.0, block_corner = 8.0;
 constexpr double widest_share = 0.36, highest_share = 0.25;  // of the frame
 constexpr double least_block_scale = 0.65;                   // below this its letters cannot be read
 
 // The line.
-constexpr double line_height = 20.0, line_padding = 6.0, line_margin = 7.0, line_corner = 4.0;
+constexpr double line_legend_height = 20.0, line_padding = 6.0, line_margin = 7.0, line_corner = 4.0;
 constexpr double line_bar_height = 10.0, longest_bar = 44.0, shortest_bar = 12.0;
 constexpr double letter_gap = 4.0, bar_gap = 9.0;
 constexpr double line_growth = 1.4;          // its letters beside the block's
@@ -40,7 +40,7 @@ double block_width(VelocityColour colour) {
 }
 
 double block_height(VelocityColour colour) {
-  return 2.0 * padding + title_height + tick_height + bar_pitch * (bar_count(colour) - 1) + bar_height;
+  return 2.0 * padding + block_title_height + tick_height + bar_pitch * (bar_count(colour) - 1) + bar_height;
 }
 
 // The same share of a frame's area, whatever the frame's shape.
@@ -82,7 +82,7 @@ void draw_paper(cairo_t* pen, double width, double height, double corner) {
 void draw_ticks(Canvas& canvas, const std::vector<std::string>& numbers, double x, double y) {
   for (std::size_t tick = 0; tick < numbers.size(); ++tick) {
     const double t = 0.5 * static_cast<double>(tick), at = x + t * bar_width;
-    canvas.fill_rectangle(at - 0.5, y + 2.0, 1.0, 4.0, ink);
+    canvas.fill_rectangle(at - 0.5, y + 2.0, 1.0, 4.0, letter_ink);
     canvas.write(numbers[tick], at, y + tick_height, t);
   }
 }
@@ -94,7 +94,7 @@ void draw_block(Canvas& canvas, VelocityColour colour, double velocity_range) {
   draw_paper(canvas.pen(), block_width(colour), block_height(colour), block_corner);
   canvas.write(components ? "velocity along" : "speed", padding, y + font_size, 0.0);
   canvas.write("m/s", x + bar_width, y + font_size, 1.0);
-  y += title_height;
+  y += block_title_height;
   for (int axis = 0; axis < bar_count(colour); ++axis, y += bar_pitch) {
     if (components) canvas.write(std::string(1, "xyz"[axis]), padding, y + bar_height - 1.0, 0.0);
     draw_bar(canvas.pen(), colour, axis, {x, y, bar_width, bar_height});
@@ -124,13 +124,13 @@ LegendLine line_of(VelocityColour colour, double velocity_range) {
 
 void draw_line(Canvas& canvas, VelocityColour colour, const LegendLine& line, double bar) {
   const auto count = static_cast<int>(line.before.size());
-  draw_paper(canvas.pen(), line.words_width + count * bar, line_height, line_corner);
-  const double baseline = 0.5 * line_height + 0.36 * font_size;
+  draw_paper(canvas.pen(), line.words_width + count * bar, line_legend_height, line_corner);
+  const double baseline = 0.5 * line_legend_height + 0.36 * font_size;
   double x = line_padding;
   for (int axis = 0; axis < count; ++axis) {
     canvas.write(line.before[axis], x, baseline, 0.0);
     x += canvas.text_width(line.before[axis]) + letter_gap;
-    draw_bar(canvas.pen(), colour, axis, {x, 0.5 * (line_height - line_bar_height), bar, line_bar_height});
+    draw_bar(canvas.pen(), colour, axis, {x, 0.5 * (line_legend_height - line_bar_height), bar, line_bar_height});
     x += bar + bar_gap;
   }
   canvas.write(line.end, x, baseline, 0.0);
@@ -157,8 +157,8 @@ Image line_legend(VelocityColour colour, double velocity_range, int width, int h
   const LegendLine line = line_of(colour, velocity_range);
   const double room = width / scale - 2.0 * line_margin - line.words_width;
   const double bar = std::min(longest_bar, room / static_cast<double>(line.before.size()));
-  if (bar < shortest_bar || scale * line_height > highest_line_share * height) return {};
-  CornerCanvas canvas(line.words_width + bar * static_cast<double>(line.before.size()), line_height, line_margin,
+  if (bar < shortest_bar || scale * line_legend_height > highest_line_share * height) return {};
+  CornerCanvas canvas(line.words_width + bar * static_cast<double>(line.before.size()), line_legend_height, line_margin,
                       scale);
   draw_line(canvas, colour, line, bar);
   return canvas.rgba();
