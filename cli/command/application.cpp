@@ -72,6 +72,7 @@ struct Request {
   StudyOptions study;
   VideoOptions video;
   SheetOptions sheet;
+  Generated generated = Generated::man;
   std::vector<std::string> overrides, metrics;
   std::string frames, caches, pixels;
   bool overwrite = false, resume = false, untrusted = false;
@@ -317,6 +318,16 @@ void add_sheet(CLI::App& app, Request& r) {
   c.final_callback([&r] { r.command = [&r] { return sheet_command(r.sheet); }; });
 }
 
+// What the build of a package runs; no part of the help.
+void add_generate(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("generate", "Print the manual page, or how a shell completes this")->group("");
+  c.add_option_function<std::string>(
+       "KIND", [&r](const std::string& text) { r.generated = parse_word<Generated>("KIND", text); },
+       "man, bash, zsh or fish")
+      ->required();
+  c.final_callback([&app, &r] { r.command = [&app, &r] { return generate_command(r.generated, app); }; });
+}
+
 void add_commands(CLI::App& app, Request& r) {
   app.set_version_flag("--version", fmt::format("billow {}", version()));
   app.require_subcommand(1);
@@ -341,6 +352,7 @@ void add_commands(CLI::App& app, Request& r) {
   app.add_subcommand("doctor", "Print versions, the GL renderer and what the processor can do")->final_callback([&r] {
     r.command = doctor_command;
   });
+  add_generate(app, r);
 }
 
 std::string typed_command(int argc, char** argv) {
@@ -353,8 +365,10 @@ std::string typed_command(int argc, char** argv) {
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return std::nullopt;
   std::vector<std::string_view> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return std::nullopt;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return std::nullopt;
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
   return fmt::format("unknown command '{}'{}", shortened(argv[1]), suggestion(argv[1], known, "commands are"));
 }
 

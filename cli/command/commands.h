@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "cli/command/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace billow::cli {
 
@@ -89,5 +94,10 @@ struct SheetOptions {
 int sheet_command(const SheetOptions& options);
 
 int doctor_command();
+
+/// What is written of the command line itself.
+enum class Generated { man, bash, zsh, fish };
+Words<Generated> words(Generated);
+int generate_command(Generated what, const CLI::App& program);
 
 }  // namespace billow::cli
