@@ -27,6 +27,7 @@ const std::vector<PlaceholderRow>& placeholders() {
   static const std::vector<PlaceholderRow> rows = {
       {"SCENE", {Of::file, {".yaml", ".yml"}}},
       {"STUDY", {Of::file, {".yaml", ".yml"}}},
+      {"TESTS", {Of::file, {".yaml", ".yml"}}},
       {"mesh FILE", {Of::file, {".obj", ".off", ".stl", ".ply", ".gltf", ".glb"}}},
       {"FILE", {Of::file}},
       {"A", {Of::file}},
@@ -39,6 +40,8 @@ const std::vector<PlaceholderRow>& placeholders() {
       {"KEY.PATH=VALUE", {Of::text}},
       {"LIST", {Of::text}},
       {"NAME", {Of::text}},
+      {"NAME...", {Of::text}},
+      {"OPTIONS", {Of::text}},
       {"N", {Of::text}},
       {"N|N%", {Of::text}},
       {"SECONDS", {Of::text}},
