@@ -83,6 +83,7 @@ struct Request {
   VideoOptions video;
   SheetOptions sheet;
   SpreadOptions spread;
+  Generated generated = Generated::man;
   std::vector<std::string> overrides, metrics;
   std::string frames, runs, caches, pixels, channel, worst, backend;
   bool overwrite = false, resume = false, untrusted = false, version_as_json = false;
@@ -145,7 +146,7 @@ void add_backend(CLI::App& command, Request& request) {
       .add_option("--backend", request.backend,
                   "What draws: auto, osmesa, egl, or egl:N for the GPU of that number in 'billow doctor' (default: "
                   "BILLOW_BACKEND, or auto, which is always software, so that bytes repeat)")
-      ->type_name("NAME");
+      ->type_name("BACKEND");
 }
 
 // Of the option or of the environment: what is wrong with either is found before anything runs.
@@ -435,6 +436,16 @@ void add_sheet(CLI::App& app, Request& r) {
   c.final_callback([&r] { r.command = [&r] { return sheet_command(r.sheet); }; });
 }
 
+// What the build of a package runs; no part of the help.
+void add_generate(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand("generate", "Print the manual page, or how a shell completes this")->group("");
+  c.add_option_function<std::string>(
+       "KIND", [&r](const std::string& text) { r.generated = parse_word<Generated>("KIND", text); },
+       "man, bash, zsh or fish")
+      ->required();
+  c.final_callback([&app, &r] { r.command = [&app, &r] { return generate_command(r.generated, app); }; });
+}
+
 void add_commands(CLI::App& app, Request& r) {
   // Options are looked at in this order: --version knows by then whether it is to be JSON.
   CLI::Option* json = app.add_flag("--json", r.version_as_json, "With --version: what this build was made of, as JSON");
@@ -463,6 +474,7 @@ void add_commands(CLI::App& app, Request& r) {
   app.add_subcommand("doctor", "Print versions, what can draw here, and what is missing")->final_callback([&r] {
     r.command = doctor_command;
   });
+  add_generate(app, r);
 }
 
 std::string typed_command(int argc, char** argv) {
@@ -475,8 +487,10 @@ std::string typed_command(int argc, char** argv) {
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return std::nullopt;
   std::vector<std::string_view> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return std::nullopt;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return std::nullopt;
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
   return fmt::format("unknown command '{}'{}", shortened(argv[1]), suggestion(argv[1], known, "commands are"));
 }
 

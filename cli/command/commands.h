@@ -6,11 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "cli/cluster/spread.h"
 #include "cli/command/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
 #include "render/gl/backend.h"
+
+namespace CLI {
+class App;
+}
 
 namespace billow::cli {
 
@@ -99,5 +104,10 @@ struct SheetOptions {
 int sheet_command(const SheetOptions& options);
 
 int doctor_command();
+
+/// What is written of the command line itself.
+enum class Generated { man, bash, zsh, fish };
+Words<Generated> words(Generated);
+int generate_command(Generated what, const CLI::App& program);
 
 }  // namespace billow::cli

@@ -162,7 +162,11 @@ Words<RunFile> words(RunFile) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  if (!error) return;
+  const bool forbidden = error == std::errc::permission_denied || error == std::errc::operation_not_permitted ||
+                         error == std::errc::read_only_file_system;
+  throw OutputError(fmt::format("cannot make the folder {}: {}{}", fs::absolute(folder).string(), error.message(),
+                                forbidden ? "; name one where you may write" : ""));
 }
 
 void make_folder_within(const fs::path& folder, const fs::path& inner) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "cli/run/frame_list.h"
 #include "cli/scene/scene.h"
 #include "cli/scene/simulation.h"

@@ -1,7 +1,7 @@
 // The fish as it is drawn, in both views, once it swims.
 #include <gtest/gtest.h>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "cli/run/film.h"
 #include "cli/scene/simulation.h"
 #include "render/frame/mesh_renderer.h"

@@ -331,6 +331,13 @@ TEST_F(RenderCommand, EveryMethodMakesAFilm) {
   }
 }
 
+TEST_F(RenderCommand, SaysWhereItMayNotWrite) {
+  const ToolResult result = run_tool({"render", "scene.yaml", "-o", "/sys/film"}, folder_.path());
+  EXPECT_EQ(result.status, 6);
+  EXPECT_NE(result.errors.find("cannot make the folder /sys/film: "), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("; name one where you may write"), std::string::npos) << result.errors;
+}
+
 TEST_F(RenderCommand, SaysWhatIsWrongWithItsArguments) {
   EXPECT_EQ(render({"--frames", "0-3"}).status, 2);
   EXPECT_EQ(render({"--frames", "5-3"}).status, 2);

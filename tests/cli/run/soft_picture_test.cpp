@@ -1,7 +1,7 @@
 // The soft starfish as they are drawn, in both views, once they swing.
 #include <gtest/gtest.h>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "cli/run/film.h"
 #include "cli/scene/simulation.h"
 #include "render/frame/mesh_renderer.h"

@@ -1,7 +1,7 @@
 // Fish and water in scenes: what is read, what is refused, and that the camera stays beside the fish.
 #include <gtest/gtest.h>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "cli/scene/simulation.h"
 #include "tests/support/scene_files.h"
 

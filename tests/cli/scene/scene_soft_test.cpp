@@ -1,7 +1,7 @@
 // Soft bodies in scenes: what is read, what is refused, and that every command's machinery takes them.
 #include <gtest/gtest.h>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "cli/run/strip_rows.h"
 #include "cli/scene/simulation.h"
 #include "tests/support/scene_files.h"

@@ -1,5 +1,5 @@
 // Octahedra in a box that wraps around.
-#include "cli/run/motes.h"
+#include "cli/drawn/motes.h"
 
 #include <cmath>
 

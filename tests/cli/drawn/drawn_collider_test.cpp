@@ -1,9 +1,9 @@
 // Colliders among what is drawn: where they are, how fast, and what of them a picture frames.
-#include "cli/run/drawn_collider.h"
+#include "cli/drawn/drawn_collider.h"
 
 #include <gtest/gtest.h>
 
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 #include "tests/support/scene_files.h"
 
 namespace billow {

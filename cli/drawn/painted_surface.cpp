@@ -1,5 +1,5 @@
 // Vertices -> corners, sRGB -> linear light.
-#include "cli/run/painted_surface.h"
+#include "cli/drawn/painted_surface.h"
 
 #include "base/srgb.h"
 

@@ -1,9 +1,9 @@
 // State -> surfaces.
-#include "cli/run/drawn_scene.h"
+#include "cli/drawn/drawn_scene.h"
 
 #include <algorithm>
 
-#include "cli/run/painted_surface.h"
+#include "cli/drawn/painted_surface.h"
 #include "sim/body/stretch.h"
 
 namespace billow::cli {

@@ -1,9 +1,9 @@
 // Collider -> surface.
-#include "cli/run/drawn_collider.h"
+#include "cli/drawn/drawn_collider.h"
 
 #include <numbers>
 
-#include "cli/run/painted_surface.h"
+#include "cli/drawn/painted_surface.h"
 #include "sim/mesh/creases.h"
 
 namespace billow::cli {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "cli/run/drawn_collider.h"
-#include "cli/run/motes.h"
+#include "cli/drawn/drawn_collider.h"
+#include "cli/drawn/motes.h"
 #include "cli/scene/simulation.h"
 #include "render/frame/mesh_renderer.h"
 #include "sim/drawn/skin.h"

@@ -1,0 +1,25 @@
+# Which headers are installed.
+
+# billow_public_headers(RESULT FOLDER ...): those in these folders, relative to the sources, that do not see, themselves
+# or through another, the headers of a package that a library keeps to itself.
+function(billow_public_headers result)
+  set(kept_to_itself "<(hwy|nlohmann|GL|fmt|cairo|yaml-cpp|assimp)/")
+  list(TRANSFORM ARGN APPEND "/*.h" OUTPUT_VARIABLE patterns)
+  file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${patterns})
+  foreach(header IN LISTS headers)
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} includes_${header} REGEX "^#include")
+  endforeach()
+  set(hidden "${kept_to_itself}")
+  set(found TRUE)
+  while(found)
+    set(found FALSE)
+    foreach(header IN LISTS headers)
+      if("${includes_${header}}" MATCHES "${hidden}")
+        list(REMOVE_ITEM headers ${header})
+        string(APPEND hidden "|\"${header}\"")
+        set(found TRUE)
+      endif()
+    endforeach()
+  endwhile()
+  set(${result} ${headers} PARENT_SCOPE)
+endfunction()
