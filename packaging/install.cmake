@@ -59,7 +59,7 @@ foreach(library IN LISTS BILLOW_LIBRARIES)
 endforeach()
 
 # Packages without a CMake file of their own, under the names by which CMakeLists.txt knows them.
-set(BILLOW_PKG_CONFIG ZIP libzip CAIRO cairo MUPARSER muparser HIGHWAY libhwy OSMESA osmesa)
+set(BILLOW_PKG_CONFIG ZIP libzip CAIRO cairo MUPARSER muparser HIGHWAY libhwy)
 set(BILLOW_FIND_MODULES "")
 while(BILLOW_PKG_CONFIG)
   list(POP_FRONT BILLOW_PKG_CONFIG name module)

@@ -34,9 +34,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev, libtbb-dev, libfmt-dev, libzip-dev, libassimp-dev, libpng-dev, libjpeg-dev, zlib1g-dev, \
 libopenexr-dev, libyaml-cpp-dev, libmuparser-dev, libcairo2-dev, libhwy-dev, pkg-config")
-if(OSMESA_FOUND)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libosmesa6-dev")
-endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "filtered mass-spring cloth and fish, static libraries
 Libraries and headers that read billow's scenes, step them and draw their
 frames, for programs of one's own, which find them by CMake's
