@@ -104,17 +104,30 @@ void require_trusted_below(const fs::path& folder) {
     require_trusted(entry->path());
 }
 
-std::vector<ComparedPair> unmade(const CompareOptions& options, const std::string& why) {
-  return {{"", options.a, options.b, Verdict::unreadable, why, {}, {}}};
-}
-
 // What a picture without a baseline, and a baseline without a picture, need.
 void say_what_lacks(ComparedPair& pair) {
   std::error_code error;
   const bool has_baseline = fs::exists(pair.a, error), has_picture = fs::exists(pair.b, error);
   if (pair.verdict != Verdict::different || has_baseline == has_picture) return;
   pair.why = has_picture ? fmt::format("new: it has no baseline yet; look at {}", pair.b.string())
-                         : fmt::format("the test makes no such picture; remove {}", pair.a.string());
+                         : fmt::format("there is no such picture; if that is right, remove {}", pair.a.string());
+}
+
+// A mask may lie among the pictures, and is none.
+void leave_out_mask(const CompareOptions& options, std::vector<ComparedPair>& pairs) {
+  const fs::path mask = options.tolerance.mask.lexically_normal();
+  std::erase_if(pairs, [&](const ComparedPair& pair) {
+    return pair.a.lexically_normal() == mask || pair.b.lexically_normal() == mask;
+  });
+  if (pairs.empty()) throw InputError("there is no picture but the mask");
+}
+
+std::vector<ComparedPair> pairs_of(const CompareOptions& options) {
+  for (const fs::path& folder : {options.a, options.b}) require_trusted_below(folder);
+  std::vector<ComparedPair> pairs = compared_folders(options);
+  leave_out_mask(options, pairs);
+  for (ComparedPair& pair : pairs) say_what_lacks(pair);
+  return pairs;
 }
 
 JudgedTest judged_test(const GoldenTests& tests, const GoldenTest& test, const GoldenFolder& folder,
@@ -124,16 +137,16 @@ JudgedTest judged_test(const GoldenTests& tests, const GoldenTest& test, const G
   judged.options.a = tests.baselines / test.name;
   judged.options.b = pictures_of(test, folder);
   judged.options.tolerance = test.tolerance;
-  if (const auto failure = failures.find(test.name); failure != failures.end()) {
-    judged.pairs = unmade(judged.options, "no pictures: " + failure->second);
-    return judged;
-  }
   try {
-    for (const fs::path& each : {judged.options.a, judged.options.b}) require_trusted_below(each);
-    judged.pairs = compared_folders(judged.options);
-    for (ComparedPair& pair : judged.pairs) say_what_lacks(pair);
-  } catch (const InputError& error) {
-    judged.pairs = unmade(judged.options, error.what());
+    if (const auto failure = failures.find(test.name); failure != failures.end())
+      throw InputError("no pictures: " + failure->second);
+    std::error_code error;
+    if (!fs::is_directory(judged.options.b, error))
+      throw InputError(fmt::format("there is no folder {}; run what makes its pictures first",
+                                   judged.options.b.lexically_normal().string()));
+    judged.pairs = pairs_of(judged.options);
+  } catch (const InputError& fault) {
+    judged.pairs = {{"", judged.options.a, judged.options.b, Verdict::unreadable, fault.what(), {}, {}}};
   }
   return judged;
 }

@@ -64,11 +64,20 @@ std::vector<RunFile> whole_pictures(const RenderedPictures& test) {
   return files;
 }
 
+// Those that `billow compare` reads.
+std::vector<render::View> compared_views(const Scene& scene) {
+  std::vector<render::View> views = scene.render.views;
+  std::erase_if(views, [](render::View view) { return !render::is_png(view); });
+  return views;
+}
+
 void check_kinds(const RenderedPictures& test, const Scene& scene) {
   const auto lacks = [&](RunPicture kind, std::string_view section) {
     fail_at(test.kinds_where,
             fmt::format("the scene makes no {0}; give it a '{1}', like set: {{{1}: {{}}}}", word_of(kind), section));
   };
+  if ((compares(test, RunPicture::frames) || compares(test, RunPicture::sheet)) && compared_views(scene).empty())
+    fail_at(test.kinds_where, "no view of the scene is PNG; give the test 'views', like [textured]");
   if (compares(test, RunPicture::strip) && !scene.strip) lacks(RunPicture::strip, "strip");
   for (const RunPicture kind : {RunPicture::velocity_image, RunPicture::spectrum})
     if (compares(test, kind) && !scene.spectrum) lacks(kind, "spectrum");
@@ -97,12 +106,6 @@ std::string command_of(const RenderedPictures& test) {
   std::vector<std::string> words = {"billow", "render", test.scene.lexically_normal().string()};
   for (const Override& change : changes_of(test)) words.insert(words.end(), {"-D", change.path + "=" + change.value});
   return command_line(words);
-}
-
-std::vector<render::View> compared_views(const Scene& scene) {
-  std::vector<render::View> views = scene.render.views;
-  std::erase_if(views, [](render::View view) { return !render::is_png(view); });
-  return views;
 }
 
 void keep(const fs::path& film, const fs::path& file, const fs::path& pictures) {

@@ -84,11 +84,11 @@ TEST_F(GoldenReader, AsksForAReasonWhereMoreIsLetThrough) {
   for (const char* wider : {"channel: 4", "worst: 17", "pixels: 2%", "pixels: 5", "ignore_alpha: true", "mask: m.png",
                             "metrics: {rmse: 0}"}) {
     EXPECT_EQ(tolerance(wider),
-              "t.yaml:3:44: this may let through what is usually a difference; say why with the key 'reason'")
+              "t.yaml:3:45: this may let through what is usually a difference; say why with the key 'reason'")
         << wider;
     EXPECT_EQ(tolerance(std::string("reason: a lamp flickers, ") + wider), "") << wider;
   }
-  EXPECT_EQ(tolerance("reason: ' '"), "t.yaml:3:53: the reason is empty; say why this picture needs another tolerance");
+  EXPECT_EQ(tolerance("reason: ' '"), "t.yaml:3:54: the reason is empty; say why this picture needs another tolerance");
   EXPECT_EQ(error("billow_golden: 1\ntolerance: {reason: all shake, pixels: 50}\ntests:\n"
                   "  - {name: a, folder: x, tolerance: {pixels: 40}}\n"),
             "");
@@ -139,8 +139,8 @@ TEST_F(GoldenReader, SaysWhatIsWrongWhereAndWhatToDo) {
   EXPECT_EQ(test_error("name: a, command: [render]"),
             "t.yaml:3:24: no argument of the command has {output}, which stands for the folder that it writes its "
             "pictures to; add it, or test a 'folder'");
-  EXPECT_EQ(test_error("name: a, command: render {output}").substr(0, 46),
-            "t.yaml:3:24: command must be a list, not 'rend");
+  EXPECT_EQ(test_error("name: a, command: 'render {output}'").substr(0, 46),
+            "t.yaml:3:24: command must be a list, not \"rend");
   EXPECT_EQ(test_error("name: a, command: [render, '{output}'], timeout: 0"),
             "t.yaml:3:55: timeout is 0 s; it must be at least 1 and at most 86400 s");
   EXPECT_EQ(error(file_of("  - {name: a, folder: b}\n  - {name: A, folder: c}\n")),
