@@ -268,10 +268,10 @@ void add_golden(CLI::App& app, Request& r) {
       ->type_name("DIR");
   CLI::Option* only =
       c.add_option("--only", r.golden.only, "Tests or pictures of these names alone: drape, 'drape/vel*'")
-          ->type_name("NAME...");
+          ->type_name("NAME");
   CLI::Option* update = c.add_option("--update", r.golden.update,
                                      "These alone, and accept what differs or is new of them (not where CI is set)")
-                            ->type_name("NAME...")
+                            ->type_name("NAME")
                             ->excludes(only);
   c.add_flag("--list", r.golden.list, "Print the names of the tests and do nothing")->excludes(update);
   c.add_flag("--allow-commands", r.golden.may_run_programs, "Run the commands that TESTS names")
