@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <system_error>
 #include <thread>
 
@@ -70,6 +71,14 @@ class MemoryFile {
   int descriptor_;
 };
 
+// As exec takes them; `words` must outlive them.
+std::vector<char*> argument_list(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
 // The child's process number; 0 when the program does not exist.
 pid_t spawn(const std::vector<std::string>& words, const std::string& folder, const MemoryFile& input,
             const MemoryFile& output, const MemoryFile& errors) {
@@ -79,9 +88,7 @@ pid_t spawn(const std::vector<std::string>& words, const std::string& folder, co
   posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
+  const std::vector<char*> arguments = argument_list(words);
   pid_t child = 0;
   const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -132,6 +139,17 @@ ProgramResult run_program(const std::vector<std::string>& words, const std::stri
   result.output = out.head(out.size());
   result.errors = errors.head(most_errors);
   return result;
+}
+
+void become_program(const std::vector<std::string>& words, const std::string& folder, unsigned seconds) {
+  if (chdir(folder.c_str()) != 0) throw std::system_error(errno, std::generic_category(), "cannot work in " + folder);
+  // Ignored signals would stay ignored; caught ones go back by themselves.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_DFL);
+  alarm(seconds);
+  execvp(words[0].c_str(), argument_list(words).data());
+  const int error = errno;
+  alarm(0);
+  throw std::system_error(error, std::generic_category(), "cannot start " + words[0]);
 }
 
 }  // namespace billow

@@ -27,4 +27,8 @@ using ProgramWatcher = std::function<bool(std::string_view output)>;
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input, double seconds,
                           const ProgramWatcher& watcher = {}, const std::string& folder = "");
 
+/// This process becomes the program `words[0]`, looked up in PATH: it works in `folder` with the signals that a shell
+/// would give it, and SIGALRM ends it after `seconds`. Throws std::system_error where it cannot be started.
+[[noreturn]] void become_program(const std::vector<std::string>& words, const std::string& folder, unsigned seconds);
+
 }  // namespace billow

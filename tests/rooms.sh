@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 order=(base
   sim/mesh sim/import sim/body sim/levels sim/linear sim/pass sim/force sim/filter sim/step sim/contact sim/limit sim/drawn
   render/image render/gl render/paper render/frame
-  cli/text cli/yaml cli/scene cli/drawn cli/page cli/cache cli/run cli/cluster cli/study cli/command)
+  cli/text cli/yaml cli/scene cli/drawn cli/page cli/cache cli/run cli/cluster cli/study cli/golden cli/command)
 # What a library may not see although it stands before it: the scene steps without pictures, the pictures see a body's
 # drawn surface and nothing else of the physics.
 forbidden=('cli/(text|yaml|scene) render/(gl|paper|frame)' 'render/[a-z]+ sim/(mesh|import|body|levels|linear|pass|force|filter|step|limit)')

@@ -79,6 +79,7 @@ struct Request {
   StabilityOptions stability;
   FilterCommandOptions filter;
   CompareOptions compare;
+  GoldenOptions golden;
   StudyOptions study;
   VideoOptions video;
   SheetOptions sheet;
@@ -362,6 +363,37 @@ void add_compare(CLI::App& app, Request& r) {
   });
 }
 
+void add_golden(CLI::App& app, Request& r) {
+  CLI::App& c = *app.add_subcommand(
+      "golden",
+      "Render the scenes of a file of tests and compare their pictures with baselines; exit 3 when they differ");
+  add_named_file(c, "TESTS", r.golden.tests, "File of tests (YAML)", r);
+  c.add_option("-o,--output", r.golden.output, "Folder to write to (default: out/ and the name of TESTS)")
+      ->type_name("DIR");
+  CLI::Option* only =
+      c.add_option("--only", r.golden.only, "Tests or pictures of these names alone: drape, 'drape/vel*'")
+          ->type_name("NAME");
+  CLI::Option* update = c.add_option("--update", r.golden.update,
+                                     "These alone, and accept what differs or is new of them (not where CI is set)")
+                            ->type_name("NAME")
+                            ->excludes(only);
+  c.add_flag("--list", r.golden.list, "Print the names of the tests and do nothing")->excludes(update);
+  c.add_flag("--allow-commands", r.golden.may_run_programs, "Run the commands that TESTS names")
+      ->excludes(c.get_option("--untrusted"));
+  c.add_option("--junit", r.golden.junit, "Write the pictures as test cases of JUnit's XML")->type_name("FILE");
+  c.add_flag("--json", r.golden.json, "Print JSON");
+  c.add_option("--jobs", r.golden.jobs, "Tests at a time (default: one per core)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  add_backend(c, r);
+  c.add_option("--perform", r.golden.perform)->group("");  // how tests are started; no part of the help
+  c.final_callback([&r] {
+    r.golden.untrusted = r.untrusted;
+    r.golden.backend = chosen_backend(r);
+    set_command(r, r.golden.tests, [&r] { return golden_command(r.golden); });
+  });
+}
+
 void add_study(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand(
       "study", "Run a scene over axes of variation; make pictures, tables and a page; several may share a folder");
@@ -469,6 +501,7 @@ void add_commands(CLI::App& app, Request& r) {
   add_filter(app, r);
   add_study(app, r);
   add_compare(app, r);
+  add_golden(app, r);
   add_video(app, r);
   add_sheet(app, r);
   app.add_subcommand("doctor", "Print versions, what can draw here, and what is missing")->final_callback([&r] {

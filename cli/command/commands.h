@@ -8,7 +8,7 @@
 
 #include "base/words.h"
 #include "cli/cluster/spread.h"
-#include "cli/command/image_tolerance.h"
+#include "cli/golden/image_tolerance.h"
 #include "cli/run/render_scene.h"
 #include "cli/scene/scene.h"
 #include "render/gl/backend.h"
@@ -64,6 +64,21 @@ struct CompareOptions {
   bool json = false;
 };
 int compare_command(const CompareOptions& options);
+
+struct GoldenOptions {
+  std::filesystem::path tests;
+  std::filesystem::path output;           // empty: out/ and the name of the tests
+  std::filesystem::path junit;            // JUnit's XML; empty: none written
+  std::vector<std::string> only, update;  // patterns of names of tests and of pictures; empty: all, none
+  std::string perform;                    // the pictures of this test alone, in this process, which is started for it
+  bool list = false;                      // print the names of the tests and do nothing
+  bool json = false;
+  bool may_run_programs = false;  // that tests name
+  render::Backend backend = {};   // that draws scenes
+  bool untrusted = false;         // tests read no file outside of their folder, nor run programs
+  int jobs = 0;                   // tests at a time; 0: one per core
+};
+int golden_command(const GoldenOptions& options);
 
 struct StudyOptions {
   std::filesystem::path study;

@@ -102,6 +102,8 @@ void print_row(const ComparedPair& pair) {
              100.0 * c.share_over, c.flip ? fmt::format("{:.5f}", *c.flip) : "", verdict);
 }
 
+}  // namespace
+
 void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
   const bool flip = std::any_of(pairs.begin(), pairs.end(),
                                 [](const ComparedPair& pair) { return pair.comparison && pair.comparison->flip; });
@@ -114,14 +116,14 @@ void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& o
   print_line("{} of {} the same", same, pairs.size());
 }
 
-void print_as_json(const std::vector<ComparedPair>& pairs, const std::vector<std::string>& accepted, bool all_same) {
+Json comparison_json(const std::vector<ComparedPair>& pairs, const std::vector<std::string>& accepted) {
+  const bool all_same =
+      std::all_of(pairs.begin(), pairs.end(), [](const ComparedPair& pair) { return pair.verdict == Verdict::same; });
   Json json = {{"same", all_same}, {"accepted", accepted}, {"images", Json::array()}, {"sequences", Json::array()}};
   for (const ComparedPair& pair : pairs) json["images"].push_back(as_json(pair));
   for (const ComparedSequence& sequence : sequences_of(pairs)) json["sequences"].push_back(as_json(sequence, pairs));
-  print_json(json_text(json, 2));
+  return json;
 }
-
-}  // namespace
 
 // What was found is printed and written before anything is accepted: it is what somebody looks at.
 int compare_command(const CompareOptions& options) {
@@ -130,12 +132,13 @@ int compare_command(const CompareOptions& options) {
     return std::all_of(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
   };
   if (!options.json) print_table(pairs, options);
-  if (!options.junit.empty()) write_junit(options.junit, pairs, options);
+  if (!options.junit.empty())
+    write_junit(options.junit, pairs, fmt::format("billow compare {} {}", options.a.string(), options.b.string()));
   if (!options.report.empty()) write_compare_report(options.report, pairs, options);
   std::vector<std::string> accepted;
   if (options.accept || !options.accept_only.empty()) accepted = accept(pairs, options);
   if (options.json)
-    print_as_json(pairs, accepted, all(Verdict::same));
+    print_json(json_text(comparison_json(pairs, accepted), 2));
   else
     for (const std::string& name : accepted) print_line("accepted {}", name);
   if (all(Verdict::unreadable))

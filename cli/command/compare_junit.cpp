@@ -21,12 +21,10 @@ std::string case_of(const ComparedPair& pair, const std::string& suite) {
 
 }  // namespace
 
-void write_junit(const std::filesystem::path& file, const std::vector<ComparedPair>& pairs,
-                 const CompareOptions& options) {
+void write_junit(const std::filesystem::path& file, const std::vector<ComparedPair>& pairs, const std::string& suite) {
   const auto count = [&](Verdict verdict) {
     return std::count_if(pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.verdict == verdict; });
   };
-  const std::string suite = fmt::format("billow compare {} {}", options.a.string(), options.b.string());
   std::string xml = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
       "errors=\"{}\">\n",

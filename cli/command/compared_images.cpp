@@ -263,6 +263,8 @@ void add_idle_tolerances(const Names& names, const CompareOptions& options, std:
   }
 }
 
+}  // namespace
+
 std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   if (!options.difference.empty())
     throw InputError("--diff takes two images, not two folders; compare the pair that differs");
@@ -279,6 +281,12 @@ std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   if (pairs.empty()) throw InputError("neither folder holds a PNG or OpenEXR image");
   return pairs;
 }
+
+ComparedPair compared_picture(const std::string& name, const CompareOptions& options) {
+  return row_of(name, Names(options), options);
+}
+
+namespace {
 
 bool is_same_file(const fs::path& one, const fs::path& other) {
   std::error_code error;
@@ -353,10 +361,14 @@ void copy(const ComparedPair& pair, const CompareOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareOptions& options) {
+void check_may_accept(std::string_view option) {
   if (const char* ci = std::getenv("CI"); ci && *ci)
-    throw InputError(
-        "--accept: CI is set in the environment, and a machine must not accept; do it where somebody looks");
+    throw InputError(fmt::format(
+        "{}: CI is set in the environment, and a machine must not accept; do it where somebody looks", option));
+}
+
+std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareOptions& options) {
+  check_may_accept("--accept");
   check_accepted_names(pairs, options);
   std::vector<std::string> accepted;
   for (ComparedPair& pair : pairs) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command/commands.h"
@@ -33,12 +34,19 @@ struct ComparedPair {
 /// NAME.png, where the second has no such names, NAME.tolerance.yaml is the tolerance of NAME.png (so with NAME.exr),
 /// and masks that these name are no pictures. Throws InputError where there is nothing to compare at all.
 std::vector<ComparedPair> compared_images(const CompareOptions& options);
+/// The same of two folders, either of which need not be there.
+std::vector<ComparedPair> compared_folders(const CompareOptions& options);
+/// The pair of that name in two folders, either of which need not have it.
+ComparedPair compared_picture(const std::string& name, const CompareOptions& options);
+
+/// Throws InputError where the environment variable CI is set: a machine must not accept. `option` asked for it.
+void check_may_accept(std::string_view option);
 
 /// Copies from the second folder, or file, to the first those of `pairs` that differ, are new there or damaged there,
 /// and are whole images in the second; all, or those of options.accept_only; each whole or not at all, none through a
-/// link. Their verdict becomes `same`. The names of what was copied. Throws InputError where options.accept_only names
-/// what is not to be had, or the environment variable CI is set: a machine must not accept; OutputError, which says
-/// what was copied before.
+/// link. Their verdict becomes `same`. The names of what was copied. Throws as
+/// check_may_accept, InputError where options.accept_only names what is not to be had, OutputError, which says what was
+/// copied before.
 std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareOptions& options);
 
 }  // namespace billow::cli

@@ -1,81 +1,21 @@
 // billow sheet: frames of a run side by side on one page, with their times.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/error.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
-#include "cli/run/finished_run.h"
+#include "cli/run/contact_sheet.h"
 #include "render/image/png.h"
-#include "render/paper/sheet.h"
 
 namespace billow::cli {
-
-namespace {
-
-namespace fs = std::filesystem;
-using Frames = std::vector<std::pair<long, double>>;
-
-constexpr int panel_width = 300;  // [pixel]
-
-// `wanted` of them at equal distances, as far as whole frames can; the first and the last are among them.
-Frames evenly_chosen(const Frames& frames, std::size_t wanted) {
-  if (wanted >= frames.size()) return frames;
-  if (wanted == 1) return {frames.front()};
-  Frames chosen;
-  const std::size_t last = frames.size() - 1, gaps = wanted - 1;
-  for (std::size_t k = 0; k < wanted; ++k) chosen.push_back(frames[(k * last + gaps / 2) / gaps]);
-  return chosen;
-}
-
-render::Panel panel_of(const FinishedRun& run, render::View view, long frame) {
-  render::Image image = render::read_png(frame_file(run, view, frame));
-  const double shape = static_cast<double>(image.height) / image.width;
-  const int height = std::max(1, static_cast<int>(std::lround(panel_width * shape)));
-  return {std::move(image), panel_width, height, true, ""};
-}
-
-// All views of a frame follow one another; the time stands below the first.
-void add_frame(render::SheetRow& row, const FinishedRun& run, const std::vector<render::View>& views,
-               const std::pair<long, double>& frame) {
-  const std::size_t first = row.panels.size();
-  for (const render::View view : views) row.panels.push_back(panel_of(run, view, frame.first));
-  row.panels[first].caption = fmt::format("{:.2f} s", frame.second);
-}
-
-render::Sheet sheet_of(const FinishedRun& run, const std::vector<render::View>& views, const Frames& chosen,
-                       std::size_t columns) {
-  render::Sheet sheet;
-  sheet.title = run.title;
-  sheet.note = fmt::format("{} of {} frames, {} fps", chosen.size(), run.frames.size(), run.fps);
-  if (std::find(views.begin(), views.end(), render::View::velocity) != views.end())
-    sheet.scales.push_back(render::velocity_scale(run.velocity_colour, run.velocity_range));
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    if (k % columns == 0) sheet.rows.emplace_back();
-    add_frame(sheet.rows.back(), run, views, chosen[k]);
-  }
-  return sheet;
-}
-
-// About as wide as high: four of twelve.
-std::size_t default_columns(std::size_t panels) {
-  return static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(panels))));
-}
-
-}  // namespace
 
 int sheet_command(const SheetOptions& options) {
   const FinishedRun run = read_finished_run(options.folder);
   const std::vector<render::View> views = chosen_views(run, options.views);
-  const fs::path file = options.output.empty() ? run.folder / (joined_names(views) + "_sheet.png") : options.output;
+  const std::filesystem::path file =
+      options.output.empty() ? run.folder / (joined_names(views) + "_sheet.png") : options.output;
   check_replaceable(file, options.overwrite);
-  const Frames chosen = evenly_chosen(run.frames, static_cast<std::size_t>(options.count));
-  if (chosen.empty()) throw InputError(run.folder.string() + ": the run has no frames");
-  const std::size_t columns =
-      options.columns > 0 ? static_cast<std::size_t>(options.columns) : default_columns(chosen.size());
-  render::write_png(file, render::draw_sheet(sheet_of(run, views, chosen, columns)));
+  const TimedFrames chosen = evenly_chosen(run.frames, static_cast<std::size_t>(options.count));
+  render::write_png(file, contact_sheet(run, views, chosen, static_cast<std::size_t>(options.columns)));
   Progress(ProgressStyle::plain).say(fmt::format("wrote {} ({} frames)", file.string(), chosen.size()));
   return exit_done;
 }

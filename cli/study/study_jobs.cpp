@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -19,6 +20,7 @@
 
 #include "base/claim.h"
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "cli/run/interrupt.h"
 
 extern char** environ;
@@ -64,8 +66,23 @@ pid_t start_process(const JobCommand& command) {
   const int error = errno;
   if (child == 0) become(arguments.data(), log, parent);
   close(log);
-  if (child < 0) throw std::system_error(error, std::generic_category(), "cannot start a run of the study");
+  if (child < 0) throw std::system_error(error, std::generic_category(), "cannot start another process");
+  setpgid(child, child);  // here too: whoever comes first
   return child;
+}
+
+// Its number stays its own until it is waited for, so that what it has left in its group can be ended before.
+bool has_ended(pid_t child) {
+  siginfo_t end{};
+  return waitid(P_PID, static_cast<id_t>(child), &end, WEXITED | WNOHANG | WNOWAIT) == 0 && end.si_pid == child;
+}
+
+// The status with which it ended, once it and what it has started are gone.
+int end_group(pid_t child) {
+  int status = 0;
+  kill(-child, SIGKILL);
+  waitpid(child, &status, 0);
+  return status;
 }
 
 int exit_status(int wait_status) {
@@ -94,10 +111,9 @@ class Children {
   std::vector<JobEnd> wait_a_moment() {
     std::vector<JobEnd> ends;
     for (auto child = running_.begin(); child != running_.end();) {
-      int status = 0;
-      if (waitpid(child->first, &status, WNOHANG) == child->first) {
+      if (has_ended(child->first)) {
         const double seconds = std::chrono::duration<double>(Clock::now() - child->second.start).count();
-        ends.push_back({child->second.number, exit_status(status), seconds});
+        ends.push_back({child->second.number, exit_status(end_group(child->first)), seconds});
         child = running_.erase(child);
       } else {
         ++child;
@@ -111,8 +127,7 @@ class Children {
   void kill_run(int number) {
     for (auto child = running_.begin(); child != running_.end(); ++child)
       if (child->second.number == number) {
-        kill(child->first, SIGKILL);
-        waitpid(child->first, nullptr, 0);
+        end_group(child->first);
         running_.erase(child);
         return;
       }
@@ -190,6 +205,25 @@ class JobList {
 };
 
 }  // namespace
+
+std::string described_end(int status) {
+  if (status <= 128) return fmt::format("exit status {}", status);
+  const char* name = sigabbrev_np(status - 128);
+  return fmt::format("ended by SIG{}", name ? name : std::to_string(status - 128));
+}
+
+std::string last_words(const std::filesystem::path& log) {
+  constexpr std::size_t enough = 4 << 10;
+  std::string text;
+  try {
+    text = read_tail(log, enough);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  text.erase(std::min(text.find_last_not_of('\n') + 1, text.size()));
+  const std::size_t begin = text.rfind('\n') + 1;  // npos + 1 is 0
+  return text.empty() ? "it left no message" : text.substr(begin);
+}
 
 void run_jobs(const std::vector<int>& numbers, int jobs, std::chrono::seconds grace, JobKeeper& keeper) {
   JobList(numbers, jobs, grace, keeper).run();

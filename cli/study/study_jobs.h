@@ -1,4 +1,4 @@
-// Runs of a study as child processes, several at a time: one that crashes takes no other down.
+// Runs of a study, or tests, as child processes, several at a time: one that crashes takes no other down.
 #pragma once
 
 #include <chrono>
@@ -43,10 +43,16 @@ class JobKeeper {
   virtual void waits(const std::vector<int>& others) = 0;
 };
 
-/// Does the runs `numbers` in their order, at most `jobs` at a time. No child outlives this call, however it ends, nor
-/// this process, even where that is killed. A signal to this process is handed on to the children, and no more are
-/// started; those that do not end within `grace` are killed. Throws OutputError when a log cannot be written,
-/// std::system_error when no process can be started, and what `keeper` throws.
+/// "exit status 4" or "ended by SIGKILL".
+std::string described_end(int status);
+
+/// The last line that a child left in its log: what it died of.
+std::string last_words(const std::filesystem::path& log);
+
+/// Does the runs `numbers` in their order, at most `jobs` at a time. No child outlives this call, however it ends, with
+/// all that it has started, nor this process, even where that is killed. A signal to this process is handed on to the
+/// children, and no more are started; those that do not end within `grace` are killed. Throws OutputError when a log
+/// cannot be written, std::system_error when no process can be started, and what `keeper` throws.
 void run_jobs(const std::vector<int>& numbers, int jobs, std::chrono::seconds grace, JobKeeper& keeper);
 
 }  // namespace billow::cli

@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <map>
-#include <system_error>
 
-#include "base/error.h"
-#include "base/file_trust.h"
 #include "base/suggest.h"
 #include "cli/scene/scene_parts.h"
+#include "cli/scene/scene_path.h"
 #include "cli/study/axis_text.h"
 #include "cli/study/study.h"
 #include "cli/study/study_keys.h"
 #include "cli/study/study_results.h"
 #include "cli/text/number_text.h"
+#include "cli/text/text_file.h"
+#include "cli/yaml/yaml_changes.h"
 
 namespace billow::cli {
 namespace {
@@ -24,23 +24,6 @@ void read_version(MapReader& map) {
   const Node& node = map.require("billow_study", "; begin it with 'billow_study: 1'");
   if (node.quoted || !is_word(node, "1"))
     fail_at(node.where, "billow_study, the version of the study format, must be 1: this billow reads version 1 only");
-}
-
-bool is_file_name(const std::string& name) {
-  return name.size() <= 64 && name.find_first_not_of(
-                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                  "_-") == std::string::npos;
-}
-
-// {solver.method: rk4, …}: an override for every entry.
-std::vector<Override> read_changes(const Node& node) {
-  if (node.kind != Node::Kind::map) fail_at(node.where, "set must be a map of scene keys, like {solver.method: rk4}");
-  std::vector<Override> changes;
-  for (const Entry& entry : node.entries) {
-    if (entry.value->kind == Node::Kind::null) fail_at(entry.where, entry.key + " has no value");
-    changes.push_back({entry.key, to_yaml_line(*entry.value), entry.value, entry.value->where});
-  }
-  return changes;
 }
 
 // With `key`: a value of that key, and its own label.
@@ -255,13 +238,6 @@ PictureSpec read_picture(const Study& study, const Node& node) {
   return picture;
 }
 
-// As a file system that takes no account of case tells names apart.
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 /// Whose a file of the study's folder is; `where` is empty for the study's own.
 struct FileOwner {
   std::string name, where;
@@ -292,29 +268,6 @@ void read_pictures(MapReader& map, Study& study) {
     check_file_names(study.pictures.back(), item->find("name")->value->where, owners);
   }
   if (study.pictures.empty()) fail_at(map.where("pictures"), "pictures is empty: a study needs something to make");
-}
-
-// Faults of a scene are shown with what stands there, so an outside file has to be one first.
-void check_outside_scene(const std::filesystem::path& scene) {
-  bool is_scene = false;
-  try {
-    is_scene = read_yaml_file(scene)->find("billow") != nullptr;
-  } catch (const InputError&) {
-    // said below, without the file's words
-  }
-  const std::string shown = scene.lexically_normal().string();
-  if (!is_scene) throw InputError(fmt::format("{} is no scene file; 'billow check {}' says why", shown, shown));
-}
-
-std::filesystem::path read_scene_path(MapReader& map, const std::filesystem::path& folder) {
-  const std::filesystem::path scene = folder / map.text("scene");
-  located(map.where("scene"), [&] { require_trusted(scene); });
-  std::error_code error;
-  if (!std::filesystem::exists(scene, error))
-    fail_at(map.where("scene"),
-            fmt::format("there is no scene file {}; the path is relative to the study's folder", scene.string()));
-  if (!may_be_quoted(scene)) located(map.where("scene"), [&] { check_outside_scene(scene); });
-  return scene;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <map>
 #include <set>
 #include <tuple>
@@ -13,7 +12,6 @@
 #include "base/atomic_file.h"
 #include "base/claim.h"
 #include "base/error.h"
-#include "base/regular_file.h"
 #include "cli/run/output_folder.h"
 #include "cli/study/study_jobs.h"
 #include "cli/study/study_run.h"
@@ -22,28 +20,6 @@
 namespace billow::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-// The last line that a run left in its log: what it died of.
-std::string last_words(const fs::path& log) {
-  constexpr std::size_t enough = 4 << 10;
-  std::string text;
-  try {
-    text = read_tail(log, enough);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  text.erase(std::min(text.find_last_not_of('\n') + 1, text.size()));
-  const std::size_t begin = text.rfind('\n') + 1;  // npos + 1 is 0
-  return text.empty() ? "it left no message" : text.substr(begin);
-}
-
-std::string described(int status) {
-  if (status <= 128) return fmt::format("exit status {}", status);
-  const char* name = sigabbrev_np(status - 128);
-  return fmt::format("ended by SIG{}", name ? name : std::to_string(status - 128));
-}
 
 std::string described(const ClaimHolder& holder) {
   if (holder.host.empty()) return "another process";
@@ -112,7 +88,7 @@ class SharedRuns : public JobKeeper {
     result.status = RunStatus::failed;
     result.hash = plan_.hash[static_cast<std::size_t>(end.number) - 1];
     result.command = command_line_of(end.number);
-    result.message = fmt::format("{}: {}", described(end.status), last_words(plan_.log_of(end.number)));
+    result.message = fmt::format("{}: {}", described_end(end.status), last_words(plan_.log_of(end.number)));
     write_result(plan_.folder_of(end.number), result);
   }
   std::string command_line_of(int number) const { return cli::command_of(plan_.study, plan_.run(number)); }

@@ -26,6 +26,12 @@ void check_utf8_text(std::string_view bytes, const std::string& name);
 /// Number of characters (code points) in UTF-8 text.
 std::size_t character_count(std::string_view text);
 
+/// Whether `text` can be part of a file's name anywhere: 1 to 64 ASCII letters, digits, _ and -.
+bool is_file_name(std::string_view text);
+
+/// `name` with its ASCII capitals in lower case: names that some file systems take for the same are the same.
+std::string lower_case(std::string name);
+
 /// At most 40 characters of `text`, with "..." for what is left out: how messages quote the user.
 std::string shortened(std::string_view text);
 

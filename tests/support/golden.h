@@ -1,4 +1,5 @@
-// Golden images: what a picture looked like when someone last looked at it.
+// Golden images: what a picture looked like when someone last looked at it. What scenes look like is in
+// tests/golden/goldens.yaml; this is for pictures that no scene makes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,9 +11,10 @@
 
 namespace billow::test {
 
-/// Compares `image` with `folder`/NAME.png by render::within_tolerance. A missing or failing baseline leaves
-/// NAME.actual.png and, where there is something to compare, NAME.difference.png in the test output folder, and says
-/// so. With BILLOW_UPDATE_GOLDEN=1 in the environment the image becomes the baseline instead.
+/// Compares `image` with `folder`/NAME.png as `billow compare` does, with NAME.tolerance.yaml and the other versions
+/// NAME.1.png beside it. The picture is left as golden/NAME.png in the test output folder; a missing or failing
+/// baseline leaves a page of the two beside it, and says so. With BILLOW_UPDATE_GOLDEN=1 in the environment, and no CI,
+/// what differs or is new becomes the baseline instead.
 testing::AssertionResult matches_golden(const render::Image& image, const std::string& name,
                                         const std::filesystem::path& folder);
 

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "render/image/png.h"
-#include "tests/support/golden.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/tool.h"
 
@@ -89,13 +88,6 @@ TEST_F(RenderCommand, SaysEverythingInJsonWhenAskedTo) {
   for (std::string line; std::getline(lines, line); ++count)
     EXPECT_TRUE(nlohmann::json::parse(line, nullptr, false).is_object()) << line;
   EXPECT_GE(count, 2);
-}
-
-TEST_F(RenderCommand, ShowsTheFilmThatItShowedBefore) {
-  ASSERT_EQ(render({"-D", "render.size=[320, 200]", "--frames", "10"}).status, 0);
-  EXPECT_GOLDEN(render::read_png(film("textured/frame_0010.png")), "film_textured");
-  EXPECT_GOLDEN(render::read_png(film("velocity/frame_0010.png")), "film_velocity");
-  EXPECT_GOLDEN(render::read_png(film("velocity_strip.png")), "film_strip");
 }
 
 TEST_F(RenderCommand, GivesTheSameBytesTwiceAndOnAnyNumberOfThreads) {

@@ -83,7 +83,7 @@ TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
             "study.yaml:1:1: the study needs the key 'billow_study'; begin it with 'billow_study: 1'");
   EXPECT_EQ(error("scene: scene.yaml", "scene: sene.yaml"), "study.yaml:3:8: there is no scene file " +
                                                                 (folder_.path() / "sene.yaml").string() +
-                                                                "; the path is relative to the study's folder");
+                                                                "; the path is relative to this file's folder");
   EXPECT_EQ(error("kind: plot", "kind: pie"),
             "study.yaml:15:26: unknown kind 'pie'; known are: strips, spectra, frames, plot, spectrum_curves");
   EXPECT_EQ(error("x: lambda", "x: lamda"), "study.yaml:15:35: there is no column 'lamda'; did you mean 'lambda'?");

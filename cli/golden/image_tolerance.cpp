@@ -1,5 +1,5 @@
-// NAME.tolerance.yaml -> ImageTolerance.
-#include "cli/command/image_tolerance.h"
+// A map of a file -> ImageTolerance.
+#include "cli/golden/image_tolerance.h"
 
 #include <fmt/format.h>
 
@@ -16,27 +16,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Section& section() {
-  static const Section keys{"the tolerance",
-                            {{"reason"},
-                             {"channel"},
-                             {"pixels"},
-                             {"worst"},
-                             {"edge", {0, render::largest_edge, false, "pixel"}},
-                             {"ignore_alpha"},
-                             {"mask"},
-                             {"metrics"}}};
-  return keys;
+// Whether `one` lets through what `usual` does not, as far as they can be compared.
+bool lets_more_through(const render::Tolerance& one, const render::Tolerance& usual) {
+  if (one.worst > usual.worst) return true;
+  if (one.pixels == 0) return false;
+  return one.pixels && usual.pixels ? *one.pixels > *usual.pixels
+                                    : one.pixels.has_value() != usual.pixels.has_value() || one.share > usual.share;
 }
 
-const Section& metric_section() {
-  static const Section keys = [] {
-    Section all{"metrics", {}};
-    for (const auto& [name, metric] : render::words(render::Metric()))
-      all.keys.push_back({name, {0.0, render::largest(metric)}});
-    return all;
-  }();
-  return keys;
+// Whether the map does nothing but let less through: then nobody has to ask why.
+bool is_stricter(const Node& node, const ImageTolerance& tolerance, const ImageTolerance& usual) {
+  const std::vector<std::string_view> plain = {"reason", "channel", "worst", "pixels"};
+  const auto is_plain = [&](const Entry& entry) {
+    return std::find(plain.begin(), plain.end(), entry.key) != plain.end();
+  };
+  return std::all_of(node.entries.begin(), node.entries.end(), is_plain) && usual.allowed.metrics.empty() &&
+         tolerance.what.threshold <= usual.what.threshold && !lets_more_through(tolerance.allowed, usual.allowed);
 }
 
 std::string read_reason(MapReader& map) {
@@ -69,7 +64,7 @@ void read_metrics(MapReader& map, render::Tolerance& tolerance) {
   const Node* node = map.find("metrics");
   if (!node) return;
   tolerance.metrics.clear();
-  MapReader metrics = map.map_from(node, "metrics", metric_section());
+  MapReader metrics = map.map_from(node, "metrics", metric_keys());
   for (const auto& [name, metric] : render::words(render::Metric()))
     if (metrics.find(name)) tolerance.metrics.push_back({metric, metrics.number(name)});
   if (tolerance.metrics.empty()) fail_at(node->where, "metrics is empty; give at least one, like {ssim: 0.99}");
@@ -102,27 +97,55 @@ bool read_share_of_white(const std::string& text, double& of_255) {
   return true;
 }
 
-ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usual) {
-  fs::path file = baseline;
-  file.replace_extension(tolerance_ending);
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(file, error))) return usual;  // a link to nothing is a fault
+const Section& tolerance_keys() {
+  static const Section keys{"the tolerance",
+                            {{"reason"},
+                             {"channel"},
+                             {"pixels"},
+                             {"worst"},
+                             {"edge", {0, render::largest_edge, false, "pixel"}},
+                             {"ignore_alpha"},
+                             {"mask"},
+                             {"metrics"}}};
+  return keys;
+}
+
+const Section& metric_keys() {
+  static const Section keys = [] {
+    Section all{"metrics", {}};
+    for (const auto& [name, metric] : render::words(render::Metric()))
+      all.keys.push_back({name, {0.0, render::largest(metric)}});
+    return all;
+  }();
+  return keys;
+}
+
+ImageTolerance read_tolerance(const Node& node, const fs::path& folder, const ImageTolerance& usual, ReasonFor reason) {
   ImageTolerance tolerance = usual;
-  const NodePtr root = read_yaml_file(file);
-  MapReader map(*root, section(), make_map());
-  tolerance.reason = read_reason(map);
+  MapReader map(node, tolerance_keys(), make_map());
+  if (map.find("reason") || reason == ReasonFor::anything) tolerance.reason = read_reason(map);
   read_share_of(map, "channel", tolerance.what.threshold);
   read_share_of(map, "worst", tolerance.allowed.worst);
   tolerance.what.edge = map.integer("edge", usual.what.edge);
   tolerance.what.ignore_alpha = map.boolean("ignore_alpha", usual.what.ignore_alpha);
-  if (map.find("mask")) tolerance.mask = file.parent_path() / map.text("mask");
+  if (map.find("mask")) tolerance.mask = folder / map.text("mask");
   read_pixels_of(map, tolerance.allowed);
   if (map.find("channel") || map.find("worst") || map.find("pixels")) tolerance.allowed.metrics.clear();
   read_metrics(map, tolerance.allowed);
   const auto& metrics = tolerance.allowed.metrics;
   tolerance.what.flip = std::any_of(metrics.begin(), metrics.end(),
                                     [](const auto& limit) { return limit.metric == render::Metric::flip; });
+  if (!map.find("reason") && !is_stricter(node, tolerance, usual))
+    fail_at(node.where, "this may let through what is usually a difference; say why with the key 'reason'");
   return tolerance;
+}
+
+ImageTolerance tolerance_of(const fs::path& baseline, const ImageTolerance& usual) {
+  fs::path file = baseline;
+  file.replace_extension(tolerance_ending);
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return usual;  // a link to nothing is a fault
+  return read_tolerance(*read_yaml_file(file), file.parent_path(), usual, ReasonFor::anything);
 }
 
 }  // namespace billow::cli
