@@ -12,7 +12,7 @@ namespace billow::cli {
 namespace {
 
 // The frame of key k [from 0].
-long frame_of(long key, const FrameRange& range) {
+long frame_of_key(long key, const FrameRange& range) {
   const long frames = range.last - range.first + 1, keys = std::min(GlbRecorder::most_keys, frames);
   if (keys < 2) return range.first;
   return range.first + (key * (frames - 1) + (keys - 1) / 2) / (keys - 1);
@@ -33,7 +33,7 @@ GlbRecorder::GlbRecorder(const RecorderSetting& setting, FilmReport& report)
     : setting_(setting), report_(report), frames_(frame_schedule(setting.run.scene, setting.range.last)) {}
 
 void GlbRecorder::add(double time, const sim::State& state) {
-  if (!frames_.take(time) || frames_.taken() != frame_of(static_cast<long>(keys_.size()), setting_.range)) return;
+  if (!frames_.take(time) || frames_.taken() != frame_of_key(static_cast<long>(keys_.size()), setting_.range)) return;
   GlbKey key{time, {}};
   for (sim::SurfaceState& surface : setting_.run.drawn.solid_surfaces(state))
     key.positions.push_back(std::move(surface.position));

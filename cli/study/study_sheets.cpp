@@ -25,7 +25,7 @@ constexpr int spectrum_side = 300, spectra_a_row = 4;
 constexpr int thumbnail_width = 300, thumbnails_a_row = 8, grid_columns = 6;
 
 /// A run and the record of its film.
-struct Film {
+struct ShownFilm {
   ShownRun run;
   FinishedRun record;
   std::string colours;  // "v = 3.2 m/s" where runs differ in what their colours stand for
@@ -34,17 +34,18 @@ struct Film {
   std::string label() const { return run.label + (run.label.empty() || colours.empty() ? "" : "; ") + colours; }
 };
 
-std::vector<Film> films_of(const std::vector<ShownRun>& runs) {
-  std::vector<Film> films;
+std::vector<ShownFilm> films_of(const std::vector<ShownRun>& runs) {
+  std::vector<ShownFilm> films;
   for (const ShownRun& run : runs) films.push_back({run, finished_film(run), ""});
   return films;
 }
 
 // Which colour is which velocity. Where runs have other ranges, each names its own, which the scale calls v.
-void add_velocity_scale(render::Sheet& sheet, std::vector<Film>& films, VelocityColour colour) {
+void add_velocity_scale(render::Sheet& sheet, std::vector<ShownFilm>& films, VelocityColour colour) {
   const double range = films.front().record.velocity_range;
   sheet.scales.push_back(render::velocity_scale(colour, range));
-  if (std::all_of(films.begin(), films.end(), [&](const Film& film) { return film.record.velocity_range == range; }))
+  if (std::all_of(films.begin(), films.end(),
+                  [&](const ShownFilm& film) { return film.record.velocity_range == range; }))
     return;
   render::SheetScale& scale = sheet.scales.back();
   scale.title += ", v as named";
@@ -53,14 +54,14 @@ void add_velocity_scale(render::Sheet& sheet, std::vector<Film>& films, Velocity
     scale.middle = "v/2";
   else
     scale.low = "\u2212v";
-  for (Film& film : films) film.colours = fmt::format("v = {} m/s", readable(film.record.velocity_range, 3));
+  for (ShownFilm& film : films) film.colours = fmt::format("v = {} m/s", readable(film.record.velocity_range, 3));
 }
 
 // One for each way in which the velocity view of a run is coloured.
-void add_scales_of_frames(render::Sheet& sheet, std::vector<Film>& films) {
+void add_scales_of_frames(render::Sheet& sheet, std::vector<ShownFilm>& films) {
   for (const Word<VelocityColour>& colour : words(VelocityColour{}))
     if (std::any_of(films.begin(), films.end(),
-                    [&](const Film& film) { return film.record.velocity_colour == colour.value; }))
+                    [&](const ShownFilm& film) { return film.record.velocity_colour == colour.value; }))
       add_velocity_scale(sheet, films, colour.value);
 }
 
@@ -76,14 +77,14 @@ std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long
 }
 
 // Where the scene does not ask for the view, doing the run again would not help.
-void require_view(const Film& film, const std::string& view) {
+void require_view(const ShownFilm& film, const std::string& view) {
   const auto& views = film.record.views;
   if (std::none_of(views.begin(), views.end(), [&](render::View has) { return render::name(has) == view; }))
     throw InputError(fmt::format("it needs the view '{0}', and the scene of run {1} draws none; add it to render.views",
                                  view, film.run.run->number));
 }
 
-render::Panel frame_panel(const Film& film, const std::string& view, long frame, int width) {
+render::Panel frame_panel(const ShownFilm& film, const std::string& view, long frame, int width) {
   require_view(film, view);
   const fs::path file = film.run.film / view / fmt::format("frame_{:04}.png", frame);
   render::Panel panel{of_run(film.run, file, render::read_png), width, 0, true, ""};
@@ -104,21 +105,21 @@ render::Image image_of(const ShownRun& run, RunFile picture, std::string_view ke
   });
 }
 
-double longest(const std::vector<Film>& films) {
+double longest(const std::vector<ShownFilm>& films) {
   double duration = 0.0;
-  for (const Film& film : films) duration = std::max(duration, film.run.result->value("duration").value_or(0.0));
+  for (const ShownFilm& film : films) duration = std::max(duration, film.run.result->value("duration").value_or(0.0));
   return duration;
 }
 
 // A strip ends with its scene, or where the run diverged.
-double strip_duration(const Film& film) {
+double strip_duration(const ShownFilm& film) {
   const double duration = film.run.result->value("duration").value_or(0.0);
   return film.run.result->status == RunStatus::done ? duration : std::min(duration, film.record.simulated_time);
 }
 
 // The first run's frames, each beginning at its time.
-render::SheetRow frames_below(const std::vector<Film>& films, const PictureSpec& picture) {
-  const Film& film = films.front();
+render::SheetRow frames_below(const std::vector<ShownFilm>& films, const PictureSpec& picture) {
+  const ShownFilm& film = films.front();
   render::SheetRow frames{films.size() > 1 ? lettered(films.size(), "frames of " + film.run.label) : "", {}, {}, false};
   const int width = std::max(40, strip_width / static_cast<int>(picture.times.size()) - 6);
   for (const double time : picture.times)
@@ -130,7 +131,7 @@ render::SheetRow frames_below(const std::vector<Film>& films, const PictureSpec&
 }
 
 // One strip above the other on one time axis; below them frames of the first run.
-render::Sheet strips_sheet(std::vector<Film> films, const PictureSpec& picture) {
+render::Sheet strips_sheet(std::vector<ShownFilm> films, const PictureSpec& picture) {
   const double duration = longest(films);
   render::Sheet sheet{picture.title, picture.note, 0.0, duration, strip_width, {}};
   add_velocity_scale(sheet, films, VelocityColour::components);
@@ -155,15 +156,15 @@ std::string frequencies_of(const render::Image& spectrum) {
              : fmt::format("{} across, {} down, cycles per side", range(spectrum.width), range(spectrum.height));
 }
 
-void add_power_scale(render::Sheet& sheet, const std::vector<Film>& films) {
+void add_power_scale(render::Sheet& sheet, const std::vector<ShownFilm>& films) {
   std::map<double, bool> ranges;
-  for (const Film& film : films)
+  for (const ShownFilm& film : films)
     if (film.record.spectrum_range) ranges[*film.record.spectrum_range] = true;
   for (const auto& [range, used] : ranges) sheet.scales.push_back(render::power_scale(range));
 }
 
 // The velocity image above its spectrum, a column for every run.
-render::Sheet spectra_sheet(std::vector<Film> films, const PictureSpec& picture) {
+render::Sheet spectra_sheet(std::vector<ShownFilm> films, const PictureSpec& picture) {
   render::Sheet sheet{picture.title, picture.note, 0.0, 0.0, 0, {}};
   add_velocity_scale(sheet, films, VelocityColour::components);
   add_power_scale(sheet, films);
@@ -186,7 +187,7 @@ bool shows_velocity(const PictureSpec& picture) {
 }
 
 // All views of a film at one time side by side, what they are below the first.
-void add_moment(render::SheetRow& row, const Film& film, const PictureSpec& picture,
+void add_moment(render::SheetRow& row, const ShownFilm& film, const PictureSpec& picture,
                 const std::pair<long, double>& frame, const std::string& what) {
   const std::size_t first = row.panels.size();
   for (const std::string& view : picture.views)
@@ -199,7 +200,7 @@ void begin_row_where_full(render::Sheet& sheet, std::size_t most) {
 }
 
 // Frames of one run in rows of a handful.
-void add_film(render::Sheet& sheet, const Film& film, const PictureSpec& picture, std::size_t most) {
+void add_film(render::Sheet& sheet, const ShownFilm& film, const PictureSpec& picture, std::size_t most) {
   sheet.rows.push_back({film.label(), {}, {}, false});
   for (const double time : picture.times) {
     const auto frame = frame_at(film.record.frames, time);
@@ -212,20 +213,20 @@ void add_film(render::Sheet& sheet, const Film& film, const PictureSpec& picture
 }
 
 // "λ = 1 (diverged); v = 3 m/s"
-std::string what_else(const Study& study, const std::vector<int>& others, const Film& film) {
+std::string what_else(const Study& study, const std::vector<int>& others, const ShownFilm& film) {
   std::string what = label_on(study, others, *film.run.run);
   if (film.run.result->status == RunStatus::diverged) what += " (diverged)";
   return film.colours.empty() ? what : what + "; " + film.colours;
 }
 
 // A row for every value of the picture's axis, in it all runs that have that value, each with what else it is.
-void add_grid(render::Sheet& sheet, const Study& study, const std::vector<Film>& films, const PictureSpec& picture,
+void add_grid(render::Sheet& sheet, const Study& study, const std::vector<ShownFilm>& films, const PictureSpec& picture,
               const std::vector<int>& others) {
   const Axis& axis = study.axes[*picture.rows];
   for (std::size_t v = 0; v < axis.values.size(); ++v) {
     const std::size_t first = sheet.rows.size();
     sheet.rows.push_back({axis.values[v].shown, {}, {}, false});
-    for (const Film& film : films) {
+    for (const ShownFilm& film : films) {
       if (film.run.run->choice[*picture.rows] != static_cast<int>(v)) continue;
       const auto frame = frame_at(film.record.frames, picture.times.front());
       if (!frame) continue;
@@ -236,7 +237,7 @@ void add_grid(render::Sheet& sheet, const Study& study, const std::vector<Film>&
   }
 }
 
-render::Sheet frames_sheet(const Study& study, std::vector<Film> films, const PictureSpec& picture,
+render::Sheet frames_sheet(const Study& study, std::vector<ShownFilm> films, const PictureSpec& picture,
                            const std::vector<int>& varying) {
   render::Sheet sheet{picture.title, picture.note, 0.0, 0.0, 0, {}};
   if (shows_velocity(picture)) add_scales_of_frames(sheet, films);
@@ -250,7 +251,7 @@ render::Sheet frames_sheet(const Study& study, std::vector<Film> films, const Pi
   const std::size_t views = picture.views.size();
   const std::size_t most = films.size() > 1 ? std::max<std::size_t>(1, thumbnails_a_row / views) * views
                                             : std::max<std::size_t>(1, 4 / views) * views;
-  for (const Film& film : films) add_film(sheet, film, picture, most);
+  for (const ShownFilm& film : films) add_film(sheet, film, picture, most);
   return sheet;
 }
 
