@@ -12,13 +12,12 @@ namespace billow::render {
 /// axis, those at the same distance in the order of bodies and triangles.
 class BlendedTriangles {
  public:
-  explicit BlendedTriangles(const Gl& gl) : gl_(&gl), index_(make_buffer(gl)) {}
+  explicit BlendedTriangles(const Gl& gl) : index_(make_buffer(gl)) {}
 
   /// `set_finish` is called whenever the next triangles have another finish.
   void draw(const FrameParts& frame, const std::function<void(const Albedo&)>& set_finish) const;
 
  private:
-  const Gl* gl_;
   GlObject index_;
 };
 

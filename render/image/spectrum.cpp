@@ -75,8 +75,8 @@ Spectrum spectrum_of(const Eigen::MatrixX3d& velocity, int width, int height, Wi
 }
 
 Eigen::VectorXd radial_power(const Spectrum& spectrum) {
-  const double middle_x = static_cast<double>(spectrum.power.cols() / 2);
-  const double middle_y = static_cast<double>(spectrum.power.rows() / 2);
+  const Eigen::Index column = spectrum.power.cols() / 2, row = spectrum.power.rows() / 2;  // of the middle
+  const auto middle_x = static_cast<double>(column), middle_y = static_cast<double>(row);
   Eigen::VectorXd radial = Eigen::VectorXd::Zero(std::lround(std::hypot(middle_x, middle_y)) + 1);
   for (Eigen::Index x = 0; x < spectrum.power.cols(); ++x)
     for (Eigen::Index y = 0; y < spectrum.power.rows(); ++y)

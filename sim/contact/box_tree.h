@@ -30,8 +30,9 @@ struct MovingBox {
   bool meets(const MovingBox& other) const {
     bool apart = false;
     for (int k = 0; k < 3; ++k) {
-      apart |= (low[k] >= other.high[k]) & (low[k + 3] >= other.high[k + 3]);
-      apart |= (other.low[k] >= high[k]) & (other.low[k + 3] >= high[k + 3]);
+      const bool above = low[k] >= other.high[k], stays_above = low[k + 3] >= other.high[k + 3];
+      const bool below = other.low[k] >= high[k], stays_below = other.low[k + 3] >= high[k + 3];
+      apart |= (above & stays_above) | (below & stays_below);
     }
     return !apart;
   }

@@ -33,7 +33,7 @@ class Directions {
 
 WindField::WindField(const Eigen::Vector3d& mean, const std::optional<Gusts>& gusts) : mean_(mean) {
   if (!gusts || gusts->strength == 0.0 || mean.isZero(0.0)) return;
-  wave_.emplace();
+  wave_ = std::array<Wave, waves>();
   Directions directions(gusts->seed);
   double squares = 0.0;
   double faster = std::numbers::sqrt2 / 2.0;  // than a wave of the period

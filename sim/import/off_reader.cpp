@@ -188,7 +188,7 @@ PolygonSoup read_text(std::string_view text, const OffHeader& header, const Impo
       if (!first) first = error;
     }
   }
-  throw *first;
+  throw InputError(*first);
 }
 
 PolygonSoup read_binary(std::string_view bytes, const OffHeader& header, const ImportLimits& limits) {

@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::ElementsAre;
 using testing::IsEmpty;
 
 // A cloth that falls for 0.44 s: eleven frames.
