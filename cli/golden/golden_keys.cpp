@@ -12,7 +12,7 @@ const Section golden_scene{"a test of a scene",
                             {"scene"},
                             {"set"},
                             {"frames"},
-                            {"views", {}, render::png_views()},
+                            {"views", {}, all_words<render::View>()},
                             {"pictures", {}, all_words<RunPicture>()},
                             {"tolerance"}}};
 const Section golden_folder{"a test of a folder", {{"name"}, {"folder"}, {"tolerance"}}};

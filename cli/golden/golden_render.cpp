@@ -64,20 +64,14 @@ std::vector<RunFile> whole_pictures(const RenderedPictures& test) {
   return files;
 }
 
-// Those that `billow compare` reads.
-std::vector<render::View> compared_views(const Scene& scene) {
-  std::vector<render::View> views = scene.render.views;
-  std::erase_if(views, [](render::View view) { return !render::is_png(view); });
-  return views;
-}
-
 void check_kinds(const RenderedPictures& test, const Scene& scene) {
   const auto lacks = [&](RunPicture kind, std::string_view section) {
     fail_at(test.kinds_where,
             fmt::format("the scene makes no {0}; give it a '{1}', like set: {{{1}: {{}}}}", word_of(kind), section));
   };
-  if ((compares(test, RunPicture::frames) || compares(test, RunPicture::sheet)) && compared_views(scene).empty())
-    fail_at(test.kinds_where, "no view of the scene is PNG; give the test 'views', like [textured]");
+  if (compares(test, RunPicture::sheet) &&
+      std::none_of(scene.render.views.begin(), scene.render.views.end(), render::is_png))
+    fail_at(test.kinds_where, "a sheet is of PNG views, and none is drawn; give the test 'views', like [textured]");
   if (compares(test, RunPicture::strip) && !scene.strip) lacks(RunPicture::strip, "strip");
   for (const RunPicture kind : {RunPicture::velocity_image, RunPicture::spectrum})
     if (compares(test, kind) && !scene.spectrum) lacks(kind, "spectrum");
@@ -122,9 +116,9 @@ void write_sheet(const fs::path& film, const std::vector<long>& frames, render::
 
 void keep_pictures(const RenderedPictures& test, const Scene& scene, const TestedFrames& frames, const fs::path& film,
                    const fs::path& pictures) {
-  for (const render::View view : compared_views(scene)) {
+  for (const render::View view : scene.render.views) {
     for (const long frame : frames.compared) keep(film, frame_of("", view, frame), pictures);
-    if (!frames.on_sheet.empty()) write_sheet(film, frames.on_sheet, view, pictures);
+    if (!frames.on_sheet.empty() && render::is_png(view)) write_sheet(film, frames.on_sheet, view, pictures);
   }
   for (const RunFile file : whole_pictures(test)) keep(film, word_of(file), pictures);
 }

@@ -10,7 +10,7 @@
 #include "base/claim.h"
 #include "base/error.h"
 #include "base/npz.h"
-#include "cli/command/image_tolerance.h"
+#include "cli/golden/image_tolerance.h"
 #include "cli/run/finished_run.h"
 #include "cli/run/frame_list.h"
 #include "cli/run/state_store.h"

@@ -183,6 +183,15 @@ TEST_F(GoldenCommand, ComparesEveryPictureThatARunWrites) {
   EXPECT_EQ(golden().status, 0);
 }
 
+TEST_F(GoldenCommand, ComparesNumbers) {
+  tests("  - {name: numbers, scene: scene.yaml, frames: 2, views: [data]}\n");
+  ASSERT_EQ(golden({"--update", "*"}).status, 0);
+  EXPECT_THAT(names(), ElementsAre("numbers/data/frame_0002.exr"));
+  EXPECT_EQ(golden().status, 0);
+  tests("  - {name: numbers, scene: scene.yaml, frames: 2, views: [data], set: {gravity: [0, -20, 0]}}\n");
+  EXPECT_EQ(golden().status, 3);
+}
+
 TEST_F(GoldenCommand, RunsThoseThatAreAskedFor) {
   tests("  - {name: one, folder: one}\n  - {name: two, folder: two}\n");
   for (const char* name : {"one/a.png", "one/b.png", "two/a.png"}) other(name, 50);
