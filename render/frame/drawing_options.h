@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/gl/backend.h"
-#include "render/gl/frame_target.h"
+#include "render/gl/tile_limits.h"
 
 namespace billow::render {
 

@@ -5,18 +5,10 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/pixel_box.h"
+#include "render/gl/tile_limits.h"
 #include "render/image/image.h"
 
 namespace billow::render {
-
-/// The most pixels [drawn] that are held at a time, so that a picture's size is not bound by GL's memory: with 4
-/// samples a pixel takes 40 bytes. Larger pictures are drawn tile by tile; where their tiles lie decides about last
-/// bits, so that these limits do not follow the machine.
-struct TileLimits {
-  int side = 4096;            // even
-  int pixels = 1 << 23;       // of a tile
-  int data_viewport = 16384;  // [sample] each way of the views of numbers, which have tiles of their own; even
-};
 
 /// Pictures of width x height pixels. Backgrounds and shadows are smooth and go straight into the plain picture; bodies
 /// are drawn multisampled, inside a box, and then resolved onto it. Samples beyond what GL offers come from drawing

@@ -12,17 +12,16 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/image/exr_header.h"
 
 namespace billow::render {
 namespace {
@@ -63,23 +62,6 @@ Imf::FrameBuffer buffer_of(const DataImage& image) {
     buffer.insert(channel.name, Imf::Slice(Imf::FLOAT, values, sizeof(float), sizeof(float) * image.width));
   }
   return buffer;
-}
-
-// Whether the file is as long as the attributes of its header say: OpenEXR makes room for one before it looks, up to
-// 2 GiB. A name, a type, a size and a value each; an empty name is the end.
-bool attributes_fit(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const auto length = static_cast<std::streamoff>(std::filesystem::file_size(file));
-  in.seekg(8);  // behind the mark and the version
-  for (std::string name, type; std::getline(in, name, '\0') && !name.empty();) {
-    std::array<unsigned char, 4> size = {};
-    std::getline(in, type, '\0');
-    in.read(reinterpret_cast<char*>(size.data()), size.size());
-    const std::streamoff value = size[0] | size[1] << 8 | size[2] << 16 | std::int64_t{size[3]} << 24;
-    if (!in || value > length - in.tellg()) return false;
-    in.seekg(value, std::ios::cur);
-  }
-  return static_cast<bool>(in);
 }
 
 // Rows that ZIP takes together.
@@ -150,7 +132,7 @@ void write_exr(const std::filesystem::path& file, const DataImage& image) {
 
 std::optional<std::string> exr_fault(const std::filesystem::path& file, int width, int height) {
   try {
-    if (!attributes_fit(file)) return "is damaged: its header is longer than the file";
+    if (auto fault = exr_header_fault(file)) return fault;
     Imf::InputFile input(file.c_str(), 0);
     return fault_of(input, width, height);
   } catch (const std::exception&) {  // its text names the file again

@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "render/image/exr_header.h"
 
 namespace billow::render {
 namespace {
@@ -181,6 +182,7 @@ struct ExrRows::File {
 // What OpenEXR says of a file names it again, and a fault of its own would be none of the file's.
 ExrRows::ExrRows(const fs::path& file) {
   check_readable(file);
+  if (const auto fault = exr_header_fault(file)) refuse_exr(file, *fault);
   try {
     file_ = std::make_unique<File>(file);
   } catch (const InputError&) {

@@ -21,6 +21,7 @@
 #include "cli/yaml/yaml_overrides.h"
 #include "cli/yaml/yaml_tree.h"
 #include "render/image/exr.h"
+#include "render/image/exr_rows.h"
 #include "render/image/png.h"
 #include "render/image/texture_file.h"
 #include "sim/import/assimp_reader.h"
@@ -165,7 +166,11 @@ void read_texture_bytes(std::string_view bytes, const fs::path&) {
 }
 
 void read_exr_file(std::string_view bytes, const fs::path& folder) {
-  render::exr_fault(lay(folder / "input.exr", bytes), 4, 3);
+  const fs::path file = lay(folder / "input.exr", bytes);
+  render::exr_fault(file, 4, 3);
+  render::ExrRows rows(file);
+  render::ValueRow row(rows.shape().width, static_cast<Eigen::Index>(rows.shape().channels.size()));
+  for (int y = 0; y < rows.shape().height; ++y) rows.read(row);
 }
 
 // ---- what billow wrote, damaged ----

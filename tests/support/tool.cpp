@@ -29,6 +29,7 @@ void redirect(const fs::path& file, int descriptor) {
   argv.push_back(nullptr);
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
+  signal(SIGINT, SIG_DFL);  // tests that run in the background are handed on that it is ignored
   if (chdir(folder.c_str()) == 0) execvp(program.c_str(), argv.data());
   _exit(127);
 }

@@ -79,7 +79,7 @@ TEST_F(KeptFiles, DamagedFramesAreDrawnAgainAndOthersStay) {
       {"textured/frame_0004.png", "has 24 x 16 pixels instead of 48 x 32"},
       {"depth/frame_0005.png", "is empty"},
       {"data/frame_0006.exr", "is damaged: a checksum is wrong"},
-      {"data/frame_0007.exr", "is damaged, or no OpenEXR image"}};
+      {"data/frame_0007.exr", "is damaged: its header does not add up"}};
   flip("film/textured/frame_0002.png", bytes_of("film/textured/frame_0002.png").size() / 2);
   shorten("film/velocity/frame_0003.png");
   fs::copy_file(at("small/textured/frame_0004.png"), at("film/textured/frame_0004.png"),

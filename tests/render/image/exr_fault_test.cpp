@@ -36,7 +36,20 @@ TEST(ExrFault, IsATextThatIsLongerThanTheFile) {
   const std::string type("\0string\0", 8);
   ASSERT_NE(bytes.find(type), std::string::npos);
   bytes.replace(bytes.find(type) + type.size(), 4, "\xff\xff\xff\x7f");
-  EXPECT_EQ(exr_fault(folder.write("long.exr", bytes), 4, 3), "is damaged: its header is longer than the file");
+  EXPECT_EQ(exr_fault(folder.write("long.exr", bytes), 4, 3), "is damaged: its header does not add up");
+}
+
+// OpenEXR reads on to the list's own end, and takes what follows for sizes.
+TEST(ExrFault, IsAListOfChannelsThatIsLongerThanItsSize) {
+  const test::TemporaryFolder folder;
+  write_exr(folder.path() / "a.exr", image_with_note());
+  std::ifstream in(folder.path() / "a.exr", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string type("\0chlist\0", 8);
+  const std::size_t size = bytes.find(type) + type.size();
+  ASSERT_EQ(bytes[size], 2 + 16 + 1);  // "Z" and its end, what is said of it, the end of the list
+  bytes[size] = 18;
+  EXPECT_EQ(exr_fault(folder.write("list.exr", bytes), 4, 3), "is damaged: its header does not add up");
 }
 
 }  // namespace
