@@ -20,9 +20,11 @@ constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize is 1001 where 
 
 // What the script's jobs are made of.
 bool is_set_by_script(std::string_view word) {
-  for (const std::string_view name : {"--array", "--dependency", "--wrap", "--parsable"})
-    if (word == name || (word.starts_with(name) && word[name.size()] == '=')) return true;
-  return word.starts_with("-a") || word.starts_with("-d");
+  // sbatch takes the beginnings of names for them.
+  const std::string_view given = word.substr(0, word.find('='));
+  for (const std::string_view name : {"--array", "--chdir", "--dependency", "--wrap", "--parsable"})
+    if (given.size() > 3 && name.starts_with(given)) return true;
+  return word.starts_with("-a") || word.starts_with("-d") || word.starts_with("-D");
 }
 
 }  // namespace
@@ -51,7 +53,14 @@ std::vector<std::string> lists_of(const std::vector<long>& numbers, int chunk) {
 }
 
 int pieces_a_task(std::size_t count, int wanted, std::size_t tasks) {
-  if (wanted > 0) return wanted;
+  if (wanted > 0) {
+    if (count > most_tasks * static_cast<std::size_t>(wanted))
+      say_line(
+          "warning: more than {} tasks, which Slurm refuses unless its MaxArraySize is larger; a --chunk of {} makes "
+          "fewer",
+          most_tasks, (count + most_tasks - 1) / most_tasks);
+    return wanted;
+  }
   const std::size_t most = std::clamp<std::size_t>(tasks, 1, most_tasks);
   return static_cast<int>(std::max<std::size_t>(1, (count + most - 1) / most));
 }

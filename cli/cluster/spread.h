@@ -15,6 +15,7 @@ struct SpreadOptions {
   bool submit = false;              // run that script
   bool video = false;               // of frames: a film in the end
   bool untrusted = false;           // handed on
+  std::string backend;              // handed on where the user has named one
   int array_limit = 16;             // tasks that Slurm runs at a time
   int chunk = 0;                    // runs or frames a task; 0: as suits the work
   std::vector<std::string> sbatch;  // further options, each a line
@@ -28,7 +29,7 @@ std::optional<std::string> sbatch_fault(std::string_view line);
 std::vector<std::string> lists_of(const std::vector<long>& numbers, int chunk);
 
 /// How many of `count` pieces a task takes, where `wanted` is 0 as many as make at most `tasks`; also of a large count
-/// no more than the 1000 that Slurm lets an array have by default.
+/// no more than the 1000 that Slurm lets an array have by default. Says so where `wanted` makes more.
 int pieces_a_task(std::size_t count, int wanted, std::size_t tasks);
 
 /// The words as a shell takes them, in one line. Throws InputError where one holds what a line of commands cannot: line

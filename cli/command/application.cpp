@@ -151,13 +151,25 @@ void add_backend(CLI::App& command, Request& request) {
 }
 
 // Of the option or of the environment: what is wrong with either is found before anything runs.
-render::Backend chosen_backend(const Request& request) {
+render::Backend chosen_backend(const CLI::App& command, const Request& request) {
+  const bool named = command.count("--backend") > 0;
   try {
-    return request.backend.empty() ? render::backend_of_environment() : render::parse_backend(request.backend);
+    return named ? render::parse_backend(request.backend) : render::backend_of_environment();
   } catch (const std::invalid_argument& error) {
-    throw CLI::ValidationError(request.backend.empty() ? std::string(error.what())
-                                                       : fmt::format("--backend: {}", error.what()));
+    throw CLI::ValidationError(named ? fmt::format("--backend: {}", error.what()) : std::string(error.what()));
   }
+}
+
+// Other processes have an environment of their own.
+std::string backend_handed_on(const CLI::App& command, const render::Backend& backend) {
+  const bool named = command.count("--backend") > 0 || backend.kind != render::BackendKind::automatic;
+  return named ? text_of(backend) : "";
+}
+
+// Also with an empty value, which a variable of a script may have.
+bool is_given(const CLI::App& command, const std::string& option) {
+  const CLI::Option* const known = command.get_option_no_throw(option);
+  return known && known->count() > 0;
 }
 
 // How work is handed to others: the options that stand in place of doing it.
@@ -207,12 +219,15 @@ void add_run_options(CLI::App& c, Request& r) {
   c.add_flag("--durable", r.render.durable,
              "Wait for the disk before a file gets its name: power cuts leave whole files");
   add_progress(c, r.render.progress);
-  c.final_callback([&r] {
+  c.final_callback([&r, &c] {
     require_scene_file(r.render.scene);
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
     if (!r.caches.empty()) r.render.overrides.push_back({"caches", "[" + r.caches + "]"});
-    if (!r.frames.empty()) r.render.frames = parse_frame_list(r.frames);
-    if (!r.render.simulate_only) r.render.backend = chosen_backend(r);
+    if (is_given(c, "--frames")) r.render.frames = parse_frame_list(r.frames);
+    if (!r.render.simulate_only) {
+      r.render.backend = chosen_backend(c, r);
+      r.spread.backend = backend_handed_on(c, r.render.backend);
+    }
     r.render.existing = r.overwrite ? Existing::overwrite : r.resume ? Existing::resume : Existing::refuse;
     r.spread.untrusted = r.untrusted;
     check_spread(r);
@@ -387,9 +402,9 @@ void add_golden(CLI::App& app, Request& r) {
       ->type_name("N");
   add_backend(c, r);
   c.add_option("--perform", r.golden.perform)->group("");  // how tests are started; no part of the help
-  c.final_callback([&r] {
+  c.final_callback([&r, &c] {
     r.golden.untrusted = r.untrusted;
-    r.golden.backend = chosen_backend(r);
+    r.golden.backend = chosen_backend(c, r);
     set_command(r, r.golden.tests, [&r] { return golden_command(r.golden); });
   });
 }
@@ -412,23 +427,29 @@ void add_study(CLI::App& app, Request& r) {
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
   for (CLI::Option* option : {list, only, collect}) some->excludes(option);
-  for (CLI::Option* elsewhere : add_spread_options(c, r, "runs"))
+  const std::vector<CLI::Option*> handed_on = add_spread_options(c, r, "runs");
+  for (CLI::Option* elsewhere : handed_on)
     for (CLI::Option* option : {list, only, collect, some, overwrite}) elsewhere->excludes(option);
-  c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
-      ->check(CLI::Range(1, 256))
-      ->type_name("N");
+  CLI::Option* jobs =
+      c.add_option("--jobs", r.study.jobs, "Runs at a time (default: one per core; one where runs are timed)")
+          ->check(CLI::Range(1, 256))
+          ->type_name("N");
+  for (CLI::Option* elsewhere : handed_on) jobs->excludes(elsewhere);
   add_backend(c, r);
-  c.add_option("--threads", r.study.threads, "Threads of each run (default: one per core)")
-      ->check(CLI::Range(1, 256))
-      ->type_name("N");
-  c.add_flag("--resume", r.study.resume,
-             "Runs keep their states while they go on: one that is stopped is gone on with from there");
-  c.final_callback([&r] {
+  CLI::Option* threads = c.add_option("--threads", r.study.threads, "Threads of each run (default: one per core)")
+                             ->check(CLI::Range(1, 256))
+                             ->type_name("N");
+  CLI::Option* resume =
+      c.add_flag("--resume", r.study.resume,
+                 "Runs keep their states while they go on: one that is stopped is gone on with from there");
+  for (CLI::Option* option : {jobs, threads, resume}) option->excludes(list)->excludes(collect);
+  c.final_callback([&r, &c] {
     check_spread(r);
     r.study.untrusted = r.spread.untrusted = r.untrusted;
-    r.study.backend = chosen_backend(r);
+    r.study.backend = chosen_backend(c, r);
+    r.spread.backend = backend_handed_on(c, r.study.backend);
     r.study.spread = r.spread;
-    if (!r.runs.empty()) r.study.some = parse_run_list(r.runs);
+    if (is_given(c, "--runs")) r.study.some = parse_run_list(r.runs);
     set_command(r, r.study.study, [&r] { return study_command(r.study); });
   });
 }

@@ -22,6 +22,7 @@
 #include "cli/text/command_text.h"
 #include "cli/text/json_text.h"
 #include "cli/text/terminal.h"
+#include "render/gl/gl_context.h"
 
 namespace billow::cli {
 
@@ -191,6 +192,9 @@ void say_what_next(const std::vector<JudgedTest>& judged, const GoldenOptions& o
   std::vector<std::string> words = {"billow", "golden", options.tests.string()};
   if (!options.output.empty()) words.insert(words.end(), {"-o", options.output.string()});
   if (options.may_run_programs) words.push_back("--allow-commands");
+  if (options.untrusted) words.push_back("--untrusted");
+  if (options.backend.kind != render::BackendKind::automatic)
+    words.insert(words.end(), {"--backend", text_of(options.backend)});
   words.push_back("--update");
   words.insert(words.end(), names.begin(), names.end());
   if (!names.empty()) say_line("if they are right: {}", command_line(words));
@@ -228,6 +232,8 @@ int report_on(std::vector<JudgedTest>& judged, const GoldenTests& tests, const G
   return record["same"] ? exit_done : exit_images_differ;
 }
 
+bool renders(const GoldenTest* test) { return std::holds_alternative<RenderedPictures>(test->pictures); }
+
 int list_tests(const Chosen& chosen) {
   for (const GoldenTest* test : chosen.list) print_line("{}", test->name);
   return exit_done;
@@ -248,6 +254,8 @@ int golden_command(const GoldenOptions& options) {
   Chosen chosen(tests, updates ? "--update" : "--only", updates ? options.update : options.only);
   if (options.list) return list_tests(chosen);
   if (updates) check_may_accept("--update");
+  // What cannot draw is no difference of every test's.
+  if (std::any_of(chosen.list.begin(), chosen.list.end(), renders)) render::GlContext(options.backend);
   catch_interrupts();
   folder.begin();
   const FolderLock lock(folder.path());

@@ -13,7 +13,9 @@ namespace {
 // What is collected says how the same is made by one process, as a record that one has written does.
 std::string command_of_whole(const RenderOptions& options) {
   std::vector<std::string> words = {"billow", "render", options.scene.string()};
-  for (const Override& change : options.overrides) words.insert(words.end(), {"-D", change.path + "=" + change.value});
+  add_overrides(options.overrides, words);
+  if (options.backend.kind != render::BackendKind::automatic)
+    words.insert(words.end(), {"--backend", text_of(options.backend)});
   RenderOptions whole = options;
   whole.output.clear(), whole.from.clear();
   if (const auto folder = output_of(options); folder != output_of(whole))

@@ -31,8 +31,7 @@ struct FramesWork {
 
 Words scene_words(const FramesWork& work, const char* command) {
   Words words = {command, work.options.scene.string()};
-  for (const Override& change : work.options.overrides)
-    words.insert(words.end(), {"-D", change.path + "=" + change.value});
+  add_overrides(work.options.overrides, words);
   if (work.spread.untrusted) words.push_back("--untrusted");
   if (work.options.durable) words.push_back("--durable");
   return words;
@@ -42,14 +41,13 @@ Words drawing_words(const FramesWork& work) {
   Words words = scene_words(work, "render");
   words.insert(words.end(), {"--from", work.states.string()});
   if (work.folder != work.states) words.insert(words.end(), {"-o", work.folder.string()});
-  if (const auto& backend = work.options.backend; backend && backend->kind != render::BackendKind::automatic)
-    words.insert(words.end(), {"--backend", text_of(*backend)});
+  if (!work.spread.backend.empty()) words.insert(words.end(), {"--backend", work.spread.backend});
   return words;
 }
 
-// Of a run that is there with the same look; what another look has drawn is drawn again.
+// Of a run that is there; check_output_folder() has seen that it is of this scene.
 std::vector<long> unfinished_frames(const FrameRange& range, const fs::path& folder, const Scene& scene) {
-  if (!is_of_scene(folder, scene)) return missing_frames(range, {});
+  if (!is_of_scene(folder, scene)) return frames_of_range(range);
   return missing_frames(range, find_frames(folder, scene, range).whole);
 }
 
@@ -61,6 +59,10 @@ void print_commands(const FramesWork& work, const Words& lists) {
   for (const std::string& list : lists) print_text(fmt::format("{} --frames {}\n", shell_line(words), list));
 }
 
+std::string no_fault_of_divergence() {
+  return fmt::format("if [ $status = {} ]; then status=0; fi", static_cast<int>(exit_diverged));
+}
+
 SlurmJob simulating_job(const FramesWork& work) {
   Words words = scene_words(work, "simulate");
   words.insert(words.end(), {"-o", work.states.string(), "--resume"});
@@ -69,7 +71,7 @@ SlurmJob simulating_job(const FramesWork& work) {
   job.about = "The states, and what is made of them besides frames.";
   job.lines = {fmt::format("{} {} {}", job_program, shell_line(words), job_threads),
                "# Where it has diverged, the frames before that are drawn; collecting says so.",
-               fmt::format("if [ $status = {} ]; then status=0; fi", static_cast<int>(exit_diverged))};
+               no_fault_of_divergence()};
   job.can_be_stopped = true;
   return job;
 }
@@ -81,7 +83,8 @@ SlurmJob drawing_job(const FramesWork& work, const Words& lists) {
   if (work.options.from.empty()) job.after = "afterok:simulate";
   job.tasks = lists;
   job.lines = {fmt::format("{} {} --frames {} --frames-only {}", job_program, shell_line(drawing_words(work)),
-                           job_piece, job_threads)};
+                           job_piece, job_threads),
+               no_fault_of_divergence()};
   job.can_be_stopped = true;
   return job;
 }
@@ -94,8 +97,11 @@ SlurmJob collecting_job(const FramesWork& work, bool draws) {
   job.about = "Record and page of the frames that are there, however the tasks have ended.";
   job.after = draws ? "afterany:frames" : work.options.from.empty() ? "afterok:simulate" : "";
   job.lines = {fmt::format("{} {} --collect {}", job_program, shell_line(words), job_threads)};
-  if (work.spread.video)
+  if (work.spread.video) {  // of what there is, also where that is not all
+    job.lines.front() += " && status=0 || status=$?";
     job.lines.push_back(fmt::format("{} {}", job_program, shell_line({"video", work.folder.string(), "--overwrite"})));
+    job.lines.push_back("exit $status");
+  }
   return job;
 }
 
@@ -128,7 +134,7 @@ int spread_frames_command(const RenderOptions& options, const SpreadOptions& spr
   FramesWork work{
       options, spread, folder, options.from.empty() ? folder : options.from, unfinished_frames(range, folder, scene),
       ""};
-  if (range.count() < frame_count(scene)) work.asked = list_text(missing_frames(range, {}));
+  if (range.count() < frame_count(scene)) work.asked = list_text(frames_of_range(range));
   // Two tasks for each that may run at a time: who is done early takes another.
   const auto tasks = static_cast<std::size_t>(2 * spread.array_limit);
   const Words lists = lists_of(work.unfinished, pieces_a_task(work.unfinished.size(), spread.chunk, tasks));

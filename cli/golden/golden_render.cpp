@@ -13,6 +13,7 @@
 #include "cli/run/contact_sheet.h"
 #include "cli/run/render_scene.h"
 #include "cli/run/watched_scene.h"
+#include "cli/run/whole_frames.h"
 #include "cli/scene/scene_parts.h"
 #include "cli/scene/simulation.h"
 #include "cli/text/command_text.h"
@@ -30,12 +31,6 @@ bool compares(const RenderedPictures& test, RunPicture kind) {
   return std::find(test.kinds.begin(), test.kinds.end(), kind) != test.kinds.end();
 }
 
-std::vector<long> numbers_in(const FrameRange& range) {
-  std::vector<long> numbers = range.listed;
-  for (long frame = range.first; range.listed.empty() && frame <= range.last; ++frame) numbers.push_back(frame);
-  return numbers;
-}
-
 /// Frames that a test looks at; a sheet's are among those that the test names.
 struct TestedFrames {
   std::vector<long> compared, on_sheet;
@@ -43,7 +38,7 @@ struct TestedFrames {
 
 TestedFrames frames_of(const RenderedPictures& test, const Scene& scene) {
   TimedFrames named;
-  for (const long frame : numbers_in(located(test.frames_where, [&] {
+  for (const long frame : frames_of_range(located(test.frames_where, [&] {
          return test.frames.empty() ? FrameRange{1, frame_count(scene)} : frames_in(test.frames, frame_count(scene));
        })))
     named.emplace_back(frame, 0.0);
@@ -77,8 +72,8 @@ void check_kinds(const RenderedPictures& test, const Scene& scene) {
     if (compares(test, kind) && !scene.spectrum) lacks(kind, "spectrum");
 }
 
-// Only what a frame or a sheet needs is drawn, but for a run of which nothing else is wanted, whose last frame is. A
-// run is as long as its last frame says, so the pictures of all of it need that one too.
+// Only what a frame or a sheet needs is drawn. A run is as long as its last frame says, so the pictures of all of it
+// need that one too.
 std::vector<FrameSpan> drawn_frames(const RenderedPictures& test, const TestedFrames& frames, const Scene& scene) {
   std::vector<FrameSpan> spans;
   for (const std::vector<long>* wanted : {&frames.compared, &frames.on_sheet})
@@ -98,7 +93,7 @@ std::vector<Override> changes_of(const RenderedPictures& test) {
 // The run by hand, but for its frames.
 std::string command_of(const RenderedPictures& test) {
   std::vector<std::string> words = {"billow", "render", test.scene.lexically_normal().string()};
-  for (const Override& change : changes_of(test)) words.insert(words.end(), {"-D", change.path + "=" + change.value});
+  add_overrides(changes_of(test), words);
   return command_line(words);
 }
 

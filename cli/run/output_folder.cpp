@@ -136,8 +136,10 @@ void check_same_run(const fs::path& folder, const Scene& scene) {
                     "all the same, or -o for "
                     "another folder",
                     folder.string()));
-  throw OutputError(fmt::format("{} is not of this scene, so its run cannot be resumed; use --overwrite to replace it",
-                                (folder / "run.json").string()));
+  throw OutputError(fmt::format(
+      "{} is not of this scene, so its run cannot be gone on with; choose another folder with -o, or replace "
+      "the run with --overwrite, without --resume, --from and --slurm",
+      (folder / "run.json").string()));
 }
 
 }  // namespace

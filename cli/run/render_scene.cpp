@@ -49,10 +49,6 @@ std::vector<render::View> views_of(const RenderOptions& options, const Scene& sc
   return options.simulate_only ? std::vector<render::View>() : scene.render.views;
 }
 
-render::Backend backend_of(const RenderOptions& options) {
-  return options.backend ? *options.backend : render::backend_of_environment();
-}
-
 void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, const RenderOptions& options) {
   const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
   const std::string strip = report.strip_columns && options.from.empty()
@@ -151,7 +147,9 @@ class SceneRun {
     FilmReport report = make_film(run_, *states_, survey_.bounds, plan(), folder_, threads_, progress_);
     const bool whole = options_.frames_only ? finish_frames(report) : finish(report, before);
     if (report.interrupted_by) return 128 + report.interrupted_by;
-    if (report.divergence) throw DivergenceError(*report.divergence);
+    // A part of a film that lies before its divergence is whole.
+    const bool has_its_part = options_.frames_only && report.frames_drawn == range_of(options_, run_.scene).count();
+    if (report.divergence && !has_its_part) throw DivergenceError(*report.divergence);
     return whole ? 0 : 1;
   }
 
@@ -220,7 +218,7 @@ class SceneRun {
             .views = views_of(options_, run_.scene),
             .only_frames = draws_stored(options_),
             .only_pictures = options_.frames_only,
-            .backend = backend_of(options_)};
+            .backend = options_.backend};
   }
 
   // The record stays that of a run that goes on, until it is collected.
@@ -319,7 +317,7 @@ FrameRange range_of(const RenderOptions& options, const Scene& scene) {
 }
 
 void check_backend(const RenderOptions& options) {
-  if (!options.simulate_only) render::GlContext(backend_of(options), options.threads);
+  if (!options.simulate_only) render::GlContext(options.backend, options.threads);
 }
 
 int render_scene(const Scene& scene, const Simulation& simulation, const StepChoice& choice,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +23,9 @@ struct RenderOptions {
   bool collect = false;           // of `from`: the record and the page of frames that are there, and draw nothing
   bool keep_states = false;       // `resume` shall go on from there, and what it finds drawn counts as drawn by it
   Existing existing = Existing::refuse;
-  int threads = 0;                              // 0: one per core
-  std::optional<render::Backend> backend = {};  // that draws; none: BILLOW_BACKEND's, or automatic
-  bool durable = false;                         // files are on the disk before they have their names
+  int threads = 0;               // 0: one per core
+  render::Backend backend = {};  // that draws
+  bool durable = false;          // files are on the disk before they have their names
   ProgressStyle progress = ProgressStyle::automatic;
   std::string command;  // as it was typed, for run.json
 };

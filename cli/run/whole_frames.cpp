@@ -50,10 +50,16 @@ FoundFrames find_frames(const std::filesystem::path& folder, const Scene& scene,
   return found;
 }
 
-std::vector<long> missing_frames(const FrameRange& range, const std::vector<long>& there) {
-  std::vector<long> missing;
+std::vector<long> frames_of_range(const FrameRange& range) {
+  std::vector<long> frames;
   for (long frame = range.first; frame <= range.last; ++frame)
-    if (range.contains(frame) && !std::binary_search(there.begin(), there.end(), frame)) missing.push_back(frame);
+    if (range.contains(frame)) frames.push_back(frame);
+  return frames;
+}
+
+std::vector<long> missing_frames(const FrameRange& range, const std::vector<long>& there) {
+  std::vector<long> missing = frames_of_range(range);
+  std::erase_if(missing, [&](long frame) { return std::binary_search(there.begin(), there.end(), frame); });
   return missing;
 }
 

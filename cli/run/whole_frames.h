@@ -18,6 +18,9 @@ struct FoundFrames {
 /// Looks at the files of the frames `range` of `scene` in `folder`, to their last byte, on all threads.
 FoundFrames find_frames(const std::filesystem::path& folder, const Scene& scene, const FrameRange& range);
 
+/// The frames of `range`, ascending.
+std::vector<long> frames_of_range(const FrameRange& range);
+
 /// Of the frames `range` those that are not in `there`, ascending.
 std::vector<long> missing_frames(const FrameRange& range, const std::vector<long>& there);
 

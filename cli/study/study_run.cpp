@@ -171,10 +171,7 @@ std::string command_of(const Study& study, const StudyRun& run) {
   if (!study.measures.render)
     return command_line({"billow", "study", study.file.string(), "--only", std::to_string(run.number)});
   std::vector<std::string> words = {"billow", "render", study.scene.lexically_normal().string()};
-  for (const Override& change : overrides_of(study, run)) {
-    words.push_back("-D");
-    words.push_back(change.path + "=" + change.value);
-  }
+  add_overrides(overrides_of(study, run), words);
   return command_line(words);
 }
 

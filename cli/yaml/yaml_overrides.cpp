@@ -102,4 +102,8 @@ NodePtr with_overrides(const NodePtr& root, const std::vector<Override>& overrid
   return tree;
 }
 
+void add_overrides(const std::vector<Override>& overrides, std::vector<std::string>& words) {
+  for (const Override& change : overrides) words.insert(words.end(), {"-D", change.path + "=" + change.value});
+}
+
 }  // namespace billow::cli

@@ -22,4 +22,7 @@ struct Override {
 /// known is left to the reader.
 NodePtr with_overrides(const NodePtr& root, const std::vector<Override>& overrides);
 
+/// Adds `-D PATH=VALUE` for each to the words of a command.
+void add_overrides(const std::vector<Override>& overrides, std::vector<std::string>& words);
+
 }  // namespace billow::cli

@@ -36,14 +36,14 @@ std::string rasteriser_threads(int threads) {
 }
 
 // What drivers read when they make a context. Mesa dereferences a null driver when GALLIUM_DRIVER names one it was not
-// built with, and lets that and two others lead from software to a GPU.
+// built with, and lets that and two others lead from software to a GPU; its softpipe rounds otherwise than llvmpipe.
 std::vector<TemporaryEnvironment::Change> driver_environment(const Backend& backend, int threads) {
   std::vector<TemporaryEnvironment::Change> changes;
   if (!std::getenv("LP_NUM_THREADS")) changes.emplace_back("LP_NUM_THREADS", rasteriser_threads(threads));
   if (!std::getenv("EGL_LOG_LEVEL")) changes.emplace_back("EGL_LOG_LEVEL", "fatal");  // what fails is said by us
   if (backend.device) return changes;
   const char* driver = std::getenv("GALLIUM_DRIVER");
-  if (driver && !names_software(driver)) changes.emplace_back("GALLIUM_DRIVER", std::nullopt);
+  if (driver && std::string_view(driver) != "llvmpipe") changes.emplace_back("GALLIUM_DRIVER", std::nullopt);
   changes.emplace_back("MESA_LOADER_DRIVER_OVERRIDE", std::nullopt);
   changes.emplace_back("LIBGL_ALWAYS_SOFTWARE", "true");
   return changes;

@@ -44,8 +44,9 @@ TEST(Lists, OfManyPiecesFitIntoAnArray) {
 
 TEST(SbatchOptions, MayBeAnyButThoseOfTheScript) {
   EXPECT_FALSE(cli::sbatch_fault("--partition=long --time=2:00:00 -p x --account 'a b'"));
-  for (const char* wrong : {"", "  ", "long", "--array=1-3", "--time=1 --array 3", "-a1-3", "-d afterok:3",
-                            "--dependency=x", "--time=1\n#SBATCH --array=1", "--wrap=ls"})
+  for (const char* wrong :
+       {"", "  ", "long", "--array=1-3", "--time=1 --array 3", "-a1-3", "-d afterok:3", "--dependency=x",
+        "--time=1\n#SBATCH --array=1", "--wrap=ls", "--arr=0-3", "--chdir=/tmp", "-D /tmp"})
     EXPECT_TRUE(cli::sbatch_fault(wrong)) << wrong;
 }
 
@@ -117,6 +118,32 @@ TEST_F(Spread, RunsThatAreFinishedAreNotRepeated) {
   const ToolResult beyond = billow({"study", "study.yaml", "-o", "made", "--runs", "2-4"});
   EXPECT_EQ(beyond.status, 4);
   EXPECT_THAT(beyond.errors, HasSubstr("--runs 2-4: the study has runs 1 to 3"));
+}
+
+TEST_F(Spread, AnEmptyListIsNotEverything) {
+  EXPECT_EQ(billow({"study", "study.yaml", "-o", "made", "--runs", ""}).status, 2);
+  EXPECT_EQ(billow({"render", "scene.yaml", "-o", "made", "--frames", ""}).status, 2);
+  EXPECT_FALSE(fs::exists(folder_.path() / "made"));
+}
+
+TEST_F(Spread, LinesNameTheBackendThatWasNamed) {
+  EXPECT_THAT(billow({"study", "study.yaml", "-o", "made", "--commands"}).output, testing::Not(HasSubstr("--backend")));
+  EXPECT_THAT(billow({"study", "study.yaml", "-o", "made", "--commands", "--backend", "auto"}).output,
+              HasSubstr("--backend auto"));
+  EXPECT_THAT(billow({"render", "scene.yaml", "-o", "made", "--slurm", "--backend", "egl"}).output,
+              HasSubstr("--from made --backend egl --frames "));
+}
+
+TEST_F(Spread, FramesBeforeADivergenceAreNoFailure) {
+  const std::vector<std::string> wild = {"-D", "duration=1",         "-D", "solver.step=0.02",
+                                         "-D", "solver.watch=false", "-D", "solver.filter=none"};
+  const auto with_wild = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), wild.begin(), wild.end());
+    return billow(arguments);
+  };
+  ASSERT_EQ(with_wild({"simulate", "scene.yaml", "-o", "film"}).status, 5);
+  EXPECT_EQ(with_wild({"render", "scene.yaml", "--from", "film", "--frames", "1-2", "--frames-only"}).status, 0);
+  EXPECT_EQ(with_wild({"render", "scene.yaml", "--from", "film", "--frames", "1-", "--frames-only"}).status, 5);
 }
 
 TEST_F(Spread, ARunThatIsStoppedGoesOn) {

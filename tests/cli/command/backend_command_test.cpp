@@ -97,6 +97,15 @@ TEST_F(BackendCommand, WithoutAnyItSaysWhatToInstallAndLeavesNothing) {
   EXPECT_EQ(run({without({"libOSMesa.so.8", "libEGL.so.1"})}, {"simulate", "scene.yaml", "-o", "states"}).status, 0);
 }
 
+TEST_F(BackendCommand, SimulatingAsksForNone) {
+  EXPECT_EQ(run({"BILLOW_BACKEND=mesa"}, {"simulate", "scene.yaml", "-o", "states"}).status, 0);
+}
+
+TEST_F(BackendCommand, SoftwareIsLlvmpipeWhateverTheEnvironmentSays) {
+  ASSERT_EQ(render({"GALLIUM_DRIVER=softpipe"}, {}, "soft").status, 0);
+  EXPECT_THAT(std::string(record("soft")["gl"]), HasSubstr("llvmpipe"));
+}
+
 TEST_F(BackendCommand, WhatWasAskedForIsNotReplaced) {
   const ToolResult osmesa = render({without({"libOSMesa.so.8"})}, {"--backend", "osmesa"});
   EXPECT_EQ(osmesa.status, 1);
