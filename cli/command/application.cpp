@@ -242,7 +242,7 @@ void add_render(CLI::App& app, Request& r) {
           ->needs(from)
           ->excludes(frames_only);
   const std::vector<CLI::Option*> spread =
-      add_spread_options(c, r, "frames", "for two tasks for each of --array-limit");
+      add_spread_options(c, r, "frames", "as many as make two tasks for each of --array-limit");
   for (CLI::Option* option : {frames_only, collect, c.get_option("--overwrite")})
     for (CLI::Option* elsewhere : spread) option->excludes(elsewhere);
   collect->excludes("--overwrite");
