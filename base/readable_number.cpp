@@ -53,6 +53,11 @@ std::string readable_fixed(double value, int decimals) {
 
 std::string grouped(long number) { return readable_fixed(static_cast<double>(number), 0); }
 
+std::string counted(long number, std::string_view one, std::string_view many) {
+  if (number == 1) return fmt::format("1 {}", one);
+  return many.empty() ? fmt::format("{} {}s", grouped(number), one) : fmt::format("{} {}", grouped(number), many);
+}
+
 std::string readable(double value, int digits) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const double size = std::abs(value);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace billow {
 
@@ -15,6 +16,9 @@ std::string readable_fixed(double value, int decimals);
 
 /// "14,502"
 std::string grouped(long number);
+
+/// "14,502 springs", "1 spring": `one` is the word for one, and `many`, where it is more than an s longer, for others.
+std::string counted(long number, std::string_view one, std::string_view many = {});
 
 /// "10⁻⁵"
 std::string power_of_ten(int exponent);

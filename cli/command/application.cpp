@@ -145,7 +145,7 @@ void add_progress(CLI::App& command, ProgressStyle& style) {
 void add_backend(CLI::App& command, Request& request) {
   command
       .add_option("--backend", request.backend,
-                  "What draws: auto, osmesa, egl, or egl:N for the GPU of that number in 'billow doctor' (default: "
+                  "What draws: auto, osmesa, egl, or egl:N for the device of that number in 'billow doctor' (default: "
                   "BILLOW_BACKEND, or auto, which is always software, so that bytes repeat)")
       ->type_name("BACKEND");
 }
@@ -173,7 +173,8 @@ bool is_given(const CLI::App& command, const std::string& option) {
 }
 
 // How work is handed to others: the options that stand in place of doing it.
-std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std::string& piece) {
+std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std::string& piece,
+                                             const std::string& usual_chunk) {
   CLI::Option* commands =
       c.add_flag("--commands", r.spread.commands, "Print lines of the shell that do the unfinished " + piece);
   CLI::Option* slurm = c.add_flag("--slurm", r.spread.slurm, "Print a script that has Slurm do what is unfinished");
@@ -191,7 +192,7 @@ std::vector<CLI::Option*> add_spread_options(CLI::App& c, Request& r, const std:
         const auto fault = sbatch_fault(line);
         return fault.value_or("");
       });
-  c.add_option("--chunk", r.spread.chunk, "So many " + piece + " a line or task")
+  c.add_option("--chunk", r.spread.chunk, "So many " + piece + " a line or task (default: " + usual_chunk + ")")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   return {commands, slurm};
@@ -255,7 +256,8 @@ void add_render(CLI::App& app, Request& r) {
       c.add_flag("--collect", r.render.collect, "With --from: draw nothing; write record and page of what is drawn")
           ->needs(from)
           ->excludes(frames_only);
-  const std::vector<CLI::Option*> spread = add_spread_options(c, r, "frames");
+  const std::vector<CLI::Option*> spread =
+      add_spread_options(c, r, "frames", "as many as make two tasks for each of --array-limit");
   for (CLI::Option* option : {frames_only, collect, c.get_option("--overwrite")})
     for (CLI::Option* elsewhere : spread) option->excludes(elsewhere);
   collect->excludes("--overwrite");
@@ -427,7 +429,7 @@ void add_study(CLI::App& app, Request& r) {
   list->excludes(only)->excludes(collect)->excludes(overwrite);
   collect->excludes(only)->excludes(overwrite);
   for (CLI::Option* option : {list, only, collect}) some->excludes(option);
-  const std::vector<CLI::Option*> handed_on = add_spread_options(c, r, "runs");
+  const std::vector<CLI::Option*> handed_on = add_spread_options(c, r, "runs", "1");
   for (CLI::Option* elsewhere : handed_on)
     for (CLI::Option* option : {list, only, collect, some, overwrite}) elsewhere->excludes(option);
   CLI::Option* jobs =

@@ -8,7 +8,7 @@
 
 #include "base/out_of_memory.h"
 #include "cli/command/application.h"
-#include "cli/text/terminal.h"
+#include "cli/command/doctor_line.h"
 #include "render/gl/gl_context.h"
 
 namespace billow::cli {
@@ -18,18 +18,16 @@ namespace {
 using render::Backend;
 using render::BackendKind;
 
-void backend_line(const std::string& name, const std::string& text) { print_line("{:<12} {}", name, text); }
-
 // Printed as soon as it is known: a broken driver may end the process. Whether it can draw.
 bool try_backend(const Backend& backend) {
   try {
     const render::GlContext context(backend);
     const std::string driver = context.driver().empty() ? "" : fmt::format(", driver {}", context.driver());
     const char* kind = context.is_software() ? "software" : "GPU";
-    backend_line(text_of(backend), fmt::format("{}: {}{}", kind, context.description(), driver));
+    doctor_line(text_of(backend), fmt::format("{}: {}{}", kind, context.description(), driver));
     return true;
   } catch (const std::runtime_error& error) {
-    backend_line(text_of(backend), fmt::format("missing: {}", error.what()));
+    doctor_line(text_of(backend), fmt::format("missing: {}", error.what()));
     return false;
   }
 }
@@ -54,19 +52,19 @@ int print_backends() {
     const Backend asked_for = render::backend_of_environment();
     const std::string taken = text_of(render::GlContext(asked_for).backend());
     if (asked_for.kind != BackendKind::automatic)
-      backend_line("draws", fmt::format("{}, as BILLOW_BACKEND says; {} without it", taken,
-                                        has_osmesa ? "osmesa"
-                                        : has_egl  ? "egl"
-                                                   : "nothing"));
+      doctor_line("draws", fmt::format("{}, as BILLOW_BACKEND says; {} without it", taken,
+                                       has_osmesa ? "osmesa"
+                                       : has_egl  ? "egl"
+                                                  : "nothing"));
     else
-      backend_line("draws",
-                   fmt::format("{}{}: {}", taken, has_osmesa ? "" : ", because osmesa is missing", why_software));
+      doctor_line("draws",
+                  fmt::format("{}{}: {}", taken, has_osmesa ? "" : ", because osmesa is missing", why_software));
     return exit_done;
   } catch (const std::invalid_argument& error) {
-    backend_line("draws", error.what());
+    doctor_line("draws", fmt::format("MISSING: {}", error.what()));
     return exit_usage;
   } catch (const ResourceError& error) {
-    backend_line("draws", fmt::format("MISSING: {}", error.what()));
+    doctor_line("draws", fmt::format("MISSING: {}", error.what()));
     return exit_internal_fault;
   }
 }

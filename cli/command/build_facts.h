@@ -3,11 +3,19 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace billow::cli {
 
-/// One JSON object: version, commit (null where `commit` is empty), compiler, libraries with the versions that were
-/// found when the build was configured, instruction sets of the vector passes.
+/// "gcc 12.2.0"
+std::string compiler_text();
+
+/// Names of the libraries and the versions that were found when the build was configured, empty where one has none.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+/// One JSON object: version, commit (null where `commit` is empty), whether what was built differs from it (`commit`
+/// ends with "-dirty"; null where there is none), compiler, libraries as above, instruction sets of the vector passes.
 std::string build_facts_json(std::string_view commit);
 
 }  // namespace billow::cli

@@ -85,11 +85,11 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-std::vector<std::string> excluded_by(const CLI::App& command, const CLI::Option& option) {
-  const std::set<CLI::Option*> excluded = option.get_excludes();
+// In the order of the table, which the sets of CLI11 have not.
+std::vector<std::string> names_of(const CLI::App& command, const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* other : command.get_options())
-    if (excluded.count(const_cast<CLI::Option*>(other)) > 0) names.push_back(names_of(*other).back());
+    if (options.count(const_cast<CLI::Option*>(other)) > 0) names.push_back(names_of(*other).back());
   return names;
 }
 
@@ -101,7 +101,8 @@ ArgumentEntry describe(const CLI::App& command, const CLI::Option& option) {
                          .description = option.get_description(),
                          .required = option.get_required(),
                          .repeatable = takes_value(option) && option.get_expected_max() > 1,
-                         .excludes = excluded_by(command, option),
+                         .excludes = names_of(command, option.get_excludes()),
+                         .needs = names_of(command, option.get_needs()),
                          .kind = {}};
   set_bounds(argument, option);
   if (argument.takes_value()) argument.kind = kind_of(command.get_name(), argument.placeholder);

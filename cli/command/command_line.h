@@ -34,6 +34,7 @@ struct ArgumentEntry {
   std::string description;
   bool required = false, repeatable = false;
   std::vector<std::string> excludes;  // names of those that cannot stand beside it, in the order of the table
+  std::vector<std::string> needs;     // of those that must stand beside it
   ArgumentKind kind;
 
   bool takes_value() const { return !placeholder.empty(); }

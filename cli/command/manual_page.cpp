@@ -45,13 +45,18 @@ std::string option_heading(const ArgumentEntry& option) {
   return heading;
 }
 
-// What the description leaves to the table: "From 1 to 256. Not with --resume."
+// " Not with --resume or --from."
+std::string rule(std::string_view words, std::string_view between, const std::vector<std::string>& options) {
+  std::string text;
+  for (const std::string& option : options) text += fmt::format(" {} {}", text.empty() ? words : between, bold(option));
+  return text.empty() ? text : text + ".";
+}
+
+// What the description leaves to the table: "From 1 to 256. Needs --slurm. Not with --resume."
 std::string option_rules(const ArgumentEntry& option) {
   std::string rules;
   if (!option.least.empty()) rules += fmt::format(" From {} to {}.", roff(option.least), roff(option.most));
-  for (std::size_t e = 0; e < option.excludes.size(); ++e)
-    rules += (e == 0 ? " Not with " : " or ") + bold(option.excludes[e]) + (e + 1 == option.excludes.size() ? "." : "");
-  return rules;
+  return rules + rule("Needs", "and", option.needs) + rule("Not with", "or", option.excludes);
 }
 
 std::string described(const ArgumentEntry& argument, const std::string& heading) {
@@ -82,10 +87,15 @@ std::string command_section(const CommandEntry& command, const CommandEntry& pro
   return text;
 }
 
-// "--help | --version"
+// "--help | --version [--json]": what needs another stands behind it.
 std::string flags_of(const CommandEntry& program) {
   std::string flags;
-  for (const ArgumentEntry& option : program.options) flags += (flags.empty() ? "" : " | ") + bold(option.names.back());
+  for (const ArgumentEntry& option : program.options) {
+    if (!option.needs.empty()) continue;
+    flags += (flags.empty() ? "" : " | ") + bold(option.names.back());
+    for (const ArgumentEntry& other : program.options)
+      if (other.needs == std::vector{option.names.back()}) flags += fmt::format(" [{}]", bold(other.names.back()));
+  }
   return flags;
 }
 
@@ -124,13 +134,17 @@ What draws where
 does not say.
 .TP
 .B LP_NUM_THREADS
-Threads of the software rasteriser, in place of as many as there are cores.
+Threads of the software rasteriser, in place of as many as
+.B --threads
+says or there are cores, but at most 16.
 The pictures do not depend on it.
 .TP
 .B CI
 Where it is set,
-.B billow compare
-accepts no images.
+.B billow compare \-\-update
+accepts no images and
+.B billow golden \-\-update
+no baselines.
 .SH FILES
 .TP
 .I share/billow/scenes
@@ -175,7 +189,7 @@ std::string manual_page(const CommandLine& line) {
                                  roff(version()), roff(line.program.description));
   page += ".SH SYNOPSIS\n";
   for (const CommandEntry& command : line.commands) page += synopsis(command) + "\n.br\n";
-  page += fmt::format("{} [{}]\n{}", bold("billow"), flags_of(line.program), description);
+  page += fmt::format("{} {}\n{}", bold("billow"), flags_of(line.program), description);
   page += ".SH OPTIONS\nEvery command has help of its own.\n";
   for (const ArgumentEntry& option : line.program.options) page += described(option, option_heading(option));
   page += ".SH COMMANDS\n";

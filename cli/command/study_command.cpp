@@ -9,6 +9,7 @@
 #include "base/claim.h"
 #include "base/error.h"
 #include "base/folder_lock.h"
+#include "base/readable_number.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/frame_list.h"
@@ -177,9 +178,10 @@ int assemble(const StudyPlan& plan) {
   // Of a process that was killed when its run was done already, and that nobody had to take over.
   for (const StudyRun& run : plan.runs) remove_dead_claim(plan.claim_of(run.number));
   const std::size_t lacking = report_shortfalls(plan, results);
-  say_line("wrote {} pictures, results.csv, study.json and index.html to {}{}",
-           plan.study.pictures.size() - contents.faults.size(), plan.folder.string(),
-           lacking ? fmt::format("; {} runs are missing or failed", lacking) : "");
+  say_line(
+      "wrote {}, results.csv, study.json and index.html to {}{}",
+      counted(static_cast<long>(plan.study.pictures.size() - contents.faults.size()), "picture"), plan.folder.string(),
+      lacking ? fmt::format("; {} missing or failed", counted(static_cast<long>(lacking), "run is", "runs are")) : "");
   return lacking || !contents.faults.empty() ? exit_internal_fault : exit_done;
 }
 

@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/child_process.h"
 #include "base/error.h"
+#include "base/readable_number.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/finished_run.h"
@@ -182,7 +183,8 @@ int video_command(const VideoOptions& options) {
   AtomicFile output(file);
   if (!maker.make(format, output.temporary())) return 128 + interrupted_by();
   output.commit();
-  progress.say(fmt::format("wrote {} ({} frames at {} fps)", file.string(), run.frames.size(), fps));
+  progress.say(fmt::format("wrote {} ({} at {} fps)", file.string(),
+                           counted(static_cast<long>(run.frames.size()), "frame"), fps));
   return exit_done;
 }
 

@@ -14,6 +14,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder_lock.h"
+#include "base/readable_number.h"
 #include "cli/run/film.h"
 #include "cli/run/given_bounds.h"
 #include "cli/run/incident_text.h"
@@ -34,9 +35,10 @@ namespace {
 
 void say_start(Progress& progress, const Run& run) {
   const sim::Structure& structure = run.simulation.structure();
-  progress.say(fmt::format("{}: {} particles, {} springs, k0 = {:.4g} /s², {} at {:.4g} s a step ({})",
-                           run.scene.file.string(), structure.particles(), structure.springs(), run.choice.k0.value,
-                           sim::name(run.scene.solver.method), run.choice.step, run.choice.bound));
+  progress.say(fmt::format("{}: {}, {}, k0 = {} /s², {} at {:.4g} s a step ({})", run.scene.file.string(),
+                           counted(structure.particles(), "particle"), counted(structure.springs(), "spring"),
+                           readable(run.choice.k0.value, 4), sim::name(run.scene.solver.method), run.choice.step,
+                           run.choice.bound));
 }
 
 using Warnings = std::vector<std::string>;
@@ -50,20 +52,21 @@ std::vector<render::View> views_of(const RenderOptions& options, const Scene& sc
 }
 
 void say_end(Progress& progress, const FilmReport& report, const OutputFolder& folder, const RenderOptions& options) {
-  const std::string kept = report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "";
+  const std::string kept = report.images_kept ? fmt::format(" ({} kept)", grouped(report.images_kept)) : "";
   const std::string strip = report.strip_columns && options.from.empty()
-                                ? fmt::format(", velocity_strip.png ({} columns)", report.strip_columns)
+                                ? fmt::format(", velocity_strip.png ({})", counted(report.strip_columns, "column"))
                                 : "";
-  const std::string main = options.simulate_only ? fmt::format("the states of {} frames", report.frames.size())
-                                                 : fmt::format("{} images{}", report.images_written, kept);
+  const std::string main = options.simulate_only
+                               ? "the states of " + counted(static_cast<long>(report.frames.size()), "frame")
+                               : counted(report.images_written, "image") + kept;
   progress.say(fmt::format("{} {}{}, run.json and index.html to {} in {}", options.collect ? "collected" : "wrote",
                            main, strip, folder.path().string(), time_taken(progress, report)));
 }
 
 // What lacks of what was to be collected, and how it comes about.
 void say_missing(Progress& progress, const std::vector<long>& missing) {
-  progress.say(fmt::format("{} frames are missing or damaged; draw them with --frames {}, and collect again",
-                           missing.size(), list_text(missing)));
+  progress.say(fmt::format("{} missing or damaged; draw them with --frames {}, and collect again",
+                           counted(static_cast<long>(missing.size()), "frame is", "frames are"), list_text(missing)));
 }
 
 // Last bits of frames that are kept may be others than what draws now would give.
@@ -225,8 +228,8 @@ class SceneRun {
   bool finish_frames(const FilmReport& report) {
     settle_names(folder_.path());
     record_.reset();
-    progress_.say(fmt::format("wrote {} images{} to {}", report.images_written,
-                              report.images_kept ? fmt::format(" ({} kept)", report.images_kept) : "",
+    progress_.say(fmt::format("wrote {}{} to {}", counted(report.images_written, "image"),
+                              report.images_kept ? fmt::format(" ({} kept)", grouped(report.images_kept)) : "",
                               folder_.path().string()));
     return true;
   }

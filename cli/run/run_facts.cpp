@@ -18,7 +18,7 @@ namespace {
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 std::string counts_text(const sim::Structure& structure) {
-  return fmt::format("{} particles, {} springs", grouped(structure.particles()), grouped(structure.springs()));
+  return fmt::format("{}, {}", counted(structure.particles(), "particle"), counted(structure.springs(), "spring"));
 }
 
 std::string summary(const Run& run) {
@@ -34,29 +34,31 @@ std::string limits_text(const StepChoice& choice) {
 }
 
 std::string solves_text(const sim::SolveCounts& solves) {
-  std::string text = fmt::format("{}, {:.3g} iterations each", solves.solves,
+  std::string text = fmt::format("{}, {:.3g} iterations each", grouped(solves.solves),
                                  static_cast<double>(solves.iterations) / static_cast<double>(solves.solves));
   if (solves.tightened > 0)
-    text += fmt::format(", {} beyond their tolerance to keep the energy from rising", solves.tightened);
-  if (solves.by_cholesky > 0) text += fmt::format(", {} handed to Cholesky", solves.by_cholesky);
-  return text + fmt::format(", {} not solved", solves.failures);
+    text += fmt::format(", {} beyond their tolerance to keep the energy from rising", grouped(solves.tightened));
+  if (solves.by_cholesky > 0) text += fmt::format(", {} handed to Cholesky", grouped(solves.by_cholesky));
+  return text + fmt::format(", {} not solved", grouped(solves.failures));
 }
 
 std::string images_text(const FilmReport& report) {
-  const std::string kept = report.images_kept ? fmt::format(", {} kept from an earlier run", report.images_kept) : "";
-  return fmt::format("{} written{}; {} strip columns", report.images_written, kept, report.strip_columns);
+  const std::string kept =
+      report.images_kept ? fmt::format(", {} kept from an earlier run", grouped(report.images_kept)) : "";
+  return fmt::format("{} written{}; {}", grouped(report.images_written), kept,
+                     counted(report.strip_columns, "strip column"));
 }
 
 std::string caches_text(const std::vector<CacheRecord>& caches) {
   std::string text;
   for (const CacheRecord& cache : caches)
-    text += fmt::format("{}{} ({} frames)", text.empty() ? "" : ", ", cache.file.string(), cache.frames);
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", cache.file.string(), counted(cache.frames, "frame"));
   return text;
 }
 
 std::string pictures_text(const Scene& scene) {
-  return fmt::format("{} frames: {:g} s at {:g} a second, {} × {} pixels", grouped(frame_count(scene)), scene.duration,
-                     scene.render.fps, scene.render.width, scene.render.height);
+  return fmt::format("{}: {:g} s at {:g} a second, {} × {} pixels", counted(frame_count(scene), "frame"),
+                     scene.duration, scene.render.fps, scene.render.width, scene.render.height);
 }
 
 // What is known before the first step.
@@ -77,8 +79,8 @@ Facts facts_of_scene(const Run& run) {
 }
 
 void add_facts_of_film(const Run& run, const FilmReport& report, const Progress& progress, Facts& facts) {
-  facts.emplace_back("Simulated", fmt::format("{:.4g} s of {:.4g} s in {} steps", report.simulated_time,
-                                              run.scene.duration, grouped(report.facts.steps)));
+  facts.emplace_back("Simulated", fmt::format("{:.4g} s of {:.4g} s in {}", report.simulated_time, run.scene.duration,
+                                              counted(report.facts.steps, "step")));
   if (report.facts.solves.solves > 0) facts.emplace_back("Linear solves", solves_text(report.facts.solves));
   if (!report.caches.empty()) facts.emplace_back("Geometry caches", caches_text(report.caches));
   facts.emplace_back("Velocity colours", fmt::format("up to {} m/s", readable(report.velocity_range, 4)));
@@ -127,7 +129,7 @@ void note_part(const FilmFrames& frames, RunPage& page) {
   if (frames.there) {
     if (static_cast<long>(frames.there->size()) == page.frames) return;
     const std::string drawn = frames.there->empty() ? "none" : frames_text(*frames.there);
-    add(fmt::format("Drawn so far, of {} frames: {}. The curves are of all.", total, drawn));
+    add(fmt::format("Drawn so far, of {}: {}. The curves are of all.", counted(page.frames, "frame"), drawn));
   } else if (frames.asked.count() < page.frames) {
     const char* const curves = page.scattered ? " The lines of the curves join them across what lies between." : "";
     add(fmt::format("A part of the run, as asked for: {} {} of {}.{}", frames.asked.count() == 1 ? "frame" : "frames",

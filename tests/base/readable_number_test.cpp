@@ -46,6 +46,14 @@ TEST(Grouped, PutsACommaBeforeEveryThreeDigits) {
   EXPECT_EQ(grouped(-1234567), "−1,234,567");
 }
 
+TEST(Counted, HasTheWordForOneForOneAlone) {
+  EXPECT_EQ(counted(0, "image"), "0 images");
+  EXPECT_EQ(counted(1, "image"), "1 image");
+  EXPECT_EQ(counted(14502, "spring"), "14,502 springs");
+  EXPECT_EQ(counted(1, "run is", "runs are"), "1 run is");
+  EXPECT_EQ(counted(2, "run is", "runs are"), "2 runs are");
+}
+
 TEST(ReadableFixed, HasAllItsDecimalsAndNoNegativeZero) {
   EXPECT_EQ(readable_fixed(1024.5, 2), "1,024.50");
   EXPECT_EQ(readable_fixed(-0.001, 2), "0.00");

@@ -10,6 +10,7 @@
 #include "base/claim.h"
 #include "base/error.h"
 #include "base/npz.h"
+#include "cli/golden/golden_tests.h"
 #include "cli/golden/image_tolerance.h"
 #include "cli/run/finished_run.h"
 #include "cli/run/frame_list.h"
@@ -65,6 +66,10 @@ void read_scene_file(std::string_view bytes, const fs::path& folder) {
 void read_study_file(std::string_view bytes, const fs::path& folder) {
   const cli::Study study = cli::read_study(lay(folder / "scenes" / "studies" / "input.yaml", bytes));
   for (const cli::PictureSpec& picture : study.pictures) cli::files_of(picture);
+}
+
+void read_golden_file(std::string_view bytes, const fs::path& folder) {
+  cli::read_golden_tests(lay(folder / "goldens.yaml", bytes));
 }
 
 void read_tolerance(std::string_view bytes, const fs::path& folder) {
@@ -231,7 +236,7 @@ constexpr std::array readers = {
     FuzzReader{"npz", read_npz_file},       FuzzReader{"states", read_state_record},
     FuzzReader{"state", read_state},        FuzzReader{"checkpoint", read_checkpoint},
     FuzzReader{"run", read_run_record},     FuzzReader{"result", read_result_file},
-    FuzzReader{"claim", read_claim},
+    FuzzReader{"claim", read_claim},        FuzzReader{"golden", read_golden_file},
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The smaller commands from outside.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -36,6 +37,7 @@ TEST_F(Commands, VersionAsJsonSaysWhatTheBuildWasMadeOf) {
   const Json facts = Json::parse(result.output);
   EXPECT_EQ("billow " + facts["billow"].get<std::string>() + "\n", run({"--version"}).output);
   EXPECT_TRUE(facts["commit"].is_null() || facts["commit"].get<std::string>().size() >= 40) << facts["commit"];
+  EXPECT_EQ(facts["dirty"].is_boolean(), facts["commit"].is_string()) << facts["dirty"];
   EXPECT_THAT(facts["compiler"].get<std::string>(), testing::MatchesRegex("(gcc|clang) [0-9]+\\.[0-9]+\\.[0-9]+"));
   for (const char* library : {"Eigen", "assimp", "libpng", "yaml-cpp", "OpenEXR"})
     EXPECT_THAT(facts["libraries"][library].get<std::string>(), testing::MatchesRegex("[0-9]+\\.[0-9].*")) << library;
@@ -187,7 +189,12 @@ TEST_F(Commands, SayWhatToDoWithAPipe) {
 
 TEST_F(Commands, DoctorSaysWhatIsMissingAndWhatThatCosts) {
   const ToolResult found = run({"doctor"});
-  EXPECT_NE(found.output.find("gnuplot      found"), std::string::npos) << found.output;
+  EXPECT_NE(found.output.find("gnuplot       found"), std::string::npos) << found.output;
+  EXPECT_EQ(found.output.find(" \n"), std::string::npos) << "a line ends with a space";
+  const Json built = Json::parse(run({"--version", "--json"}).output);
+  EXPECT_THAT(found.output, testing::HasSubstr("compiler      " + built["compiler"].get<std::string>() + "\n"));
+  for (const auto& [library, version] : built["libraries"].items())
+    EXPECT_THAT(found.output, testing::HasSubstr(fmt::format("{:<13} {}", library, version.get<std::string>())));
   const ToolResult bare = test::run_program("env", {"PATH=/nowhere", BILLOW_TOOL, "doctor"}, folder_.path());
   EXPECT_NE(bare.output.find("missing: plots of 'study' and 'filter' are not drawn"), std::string::npos);
   EXPECT_NE(bare.output.find("missing: 'video' makes no film"), std::string::npos);

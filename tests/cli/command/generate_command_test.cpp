@@ -120,6 +120,12 @@ TEST_F(Generate, HoldsEveryOptionOfEveryCommand) {
   }
 }
 
+TEST_F(Generate, ManualPageSaysWhatAnOptionNeeds) {
+  const std::string man = std::regex_replace(generated("man"), std::regex(R"(\\f[BIR]|\\)"), "");
+  EXPECT_THAT(man, testing::HasSubstr("Run that script. Needs --slurm.\n"));
+  EXPECT_THAT(man, testing::HasSubstr("--version [--json]"));  // which alone says nothing
+}
+
 TEST_F(Generate, BashCompletesCommandsOptionsAndWords) {
   EXPECT_THAT(offered_by_bash({"si"}), ElementsAre("simulate"));
   EXPECT_THAT(offered_by_bash({"gen"}), IsEmpty());

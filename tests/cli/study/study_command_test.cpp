@@ -80,7 +80,7 @@ TEST_F(StudyCommand, ListsRunsDoesOneAndCollects) {
   EXPECT_FALSE(fs::exists(made("limits.png")));
   const ToolResult collected = study({"--collect"});
   EXPECT_EQ(collected.status, 1);
-  EXPECT_NE(collected.errors.find("1 runs are missing or failed"), std::string::npos) << collected.errors;
+  EXPECT_NE(collected.errors.find("1 run is missing or failed"), std::string::npos) << collected.errors;
   EXPECT_TRUE(fs::exists(made("limits.png")));
   EXPECT_EQ(study({"--only", "3"}).status, 4);
 }
