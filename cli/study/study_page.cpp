@@ -247,7 +247,7 @@ std::string commands(const StudyContents& contents) {
 
 // "2 of 9 runs diverged:", and below it why, run by run, the first few of them.
 std::string shortfall(const StudyContents& contents, RunStatus status) {
-  constexpr int most_explained = 8;
+  constexpr int most_explained = 3;
   int runs = 0;
   std::string why;
   for (std::size_t r = 0; r < contents.runs.size(); ++r) {

@@ -210,7 +210,7 @@ set: {duration: 0.2}
 pictures: [{name: films, kind: frames, times: [0.1, 3]}]
 )");
   const ToolResult result = study();
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 4);
   EXPECT_NE(result.errors.find("study.yaml:4:53: the picture 'films' wants a frame at 3 s, and its runs end at 0.2 s"),
             std::string::npos)
       << result.errors;
@@ -257,7 +257,9 @@ pictures:
   - {name: none, kind: plot, x: lambda, y: error}
 )");
   const ToolResult result = study();
-  EXPECT_NE(result.errors.find("'none' is missing: there is no point to plot. Not shown: 4 runs have no error.\n"),
+  EXPECT_NE(result.errors.find(
+                "'none' is missing: there is no point to plot. Not shown: λ = 1, symmetric; λ = 1, conserving; λ = 2, "
+                "symmetric and 1 more have no error.\n"),
             std::string::npos)
       << result.errors;
   const std::string several = test::read_text(made("several.svg")), one = test::read_text(made("one.svg"));
