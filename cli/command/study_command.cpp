@@ -137,6 +137,7 @@ std::size_t report_shortfalls(const StudyPlan& plan, const std::vector<RunResult
     say_line("{}: {}{}", plan.name_of(run.number), name(result.status),
              result.message.empty() ? "" : "; " + result.message);
   }
+  if (lacking > most_named) say_line("and {} more; 'billow study … --list' names all", lacking - most_named);
   return lacking;
 }
 
@@ -200,6 +201,7 @@ int study_command(const StudyOptions& options) {
   const std::vector<long> numbers = chosen_runs(plan, options);
   // A fault in the last run's scene is found before the first one starts.
   for (const long number : numbers) read_hash(plan, static_cast<int>(number));
+  check_times(plan);
   if (options.list) return list_runs(plan);
   if (options.spread.any()) return spread(plan, numbers, options.spread);
   if (!options.collect && plan.study.measures.render) render::GlContext(plan.backend);  // before every run fails by it

@@ -85,6 +85,8 @@
     }
   }
 
+  const grouped = (number) => String(number).replace(/\B(?=(\d{3})+$)/g, ",");
+
   function show(number) {
     frame = drawn_before(Math.round(number));
     const time = time_of(frame);
@@ -92,7 +94,7 @@
       picture.src = file_of(run.views[k], frame);
       picture.alt = `${run.views[k]}, frame ${frame}`;
     });
-    clock.textContent = `${time.toFixed(run.decimals)} s, frame ${frame} of ${run.of}`;
+    clock.textContent = `${time.toFixed(run.decimals)} s, frame ${grouped(frame)} of ${grouped(run.of)}`;
     slider.value = frame;
     slider.setAttribute("aria-valuetext", clock.textContent);
     player.style.setProperty("--at", share_of(time));

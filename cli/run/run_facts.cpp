@@ -95,10 +95,21 @@ void show_model(RunPage& page) {
   page.glb_script = word_of(RunFile::glb_script);
 }
 
+bool has_option(const Run& run, std::string_view option) {
+  return (run.command + " ").find(fmt::format(" {} ", option)) != std::string::npos;
+}
+
+// The command into the folder that holds the run by now.
+std::string command_again(const Run& run) {
+  const bool goes_there =
+      run.command.empty() || has_option(run, "--overwrite") || has_option(run, "--resume") || has_option(run, "--from");
+  return run.command + (goes_there ? "" : " --overwrite");
+}
+
 // How the missing frames are had.
 std::string how_to_go_on(const Run& run) {
-  if (run.command.find(" --from ") != std::string::npos) return "The same command draws the others.";
-  const bool replaces = run.command.find("--overwrite") != std::string::npos;
+  if (has_option(run, "--from")) return "The same command draws the others.";
+  const bool replaces = !has_option(run, "--resume");
   return fmt::format("The same command with --resume{} goes on from there.",
                      replaces ? " in place of --overwrite" : "");
 }
@@ -172,7 +183,7 @@ RunPage page_of(const Run& run, const FilmFrames& frames) {
   page.fps = scene.render.fps;
   page.frames = frame_count(scene);
   page.facts = facts_of_scene(run);
-  page.command = run.command;
+  page.command = command_again(run);
   page.scene = scene.effective;
   return page;
 }

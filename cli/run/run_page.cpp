@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/readable_number.h"
 #include "base/xml.h"
 #include "cli/page/page_file.h"
 #include "cli/page/report_page.h"
@@ -154,21 +155,21 @@ std::string player(const RunPage& page) {
                                        {"listed", page.listed},
                                        {"decimals", clock_decimals(page)}};
   const bool still = has_one_frame(page);
-  return fill_template(
-      page_file("player.html"),
-      {{"at", fmt::format("{:.5f}", axis.share(start_time))},
-       {"views", views(page, start)},
-       {"track_width", fmt::format("{:.4f}", 100.0 * axis.share(axis.last))},
-       {"first", std::to_string(shown_first(page))},
-       {"last", std::to_string(shown_last(page))},
-       {"start", std::to_string(start)},
-       {"still", hidden_if(still)},
-       {"timeless", hidden_if(still && page.strip_columns == 0)},
-       {"strip", strip(page, axis)},
-       {"ticks", time_labels(time_ticks(axis.begin, axis.end), axis.begin, axis.end)},
-       {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page), start, page.frames)},
-       {"plots", plots(page, axis)},
-       {"data", json_for_script(json_text(data))}});
+  return fill_template(page_file("player.html"),
+                       {{"at", fmt::format("{:.5f}", axis.share(start_time))},
+                        {"views", views(page, start)},
+                        {"track_width", fmt::format("{:.4f}", 100.0 * axis.share(axis.last))},
+                        {"first", std::to_string(shown_first(page))},
+                        {"last", std::to_string(shown_last(page))},
+                        {"start", std::to_string(start)},
+                        {"still", hidden_if(still)},
+                        {"timeless", hidden_if(still && page.strip_columns == 0)},
+                        {"strip", strip(page, axis)},
+                        {"ticks", time_labels(time_ticks(axis.begin, axis.end), axis.begin, axis.end)},
+                        {"clock", fmt::format("{:.{}f} s, frame {} of {}", start_time, clock_decimals(page),
+                                              grouped(start), grouped(page.frames))},
+                        {"plots", plots(page, axis)},
+                        {"data", json_for_script(json_text(data))}});
 }
 
 std::string viewer(const RunPage& page) {

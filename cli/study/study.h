@@ -57,12 +57,13 @@ struct PictureSpec {
   std::string name;  // of its files
   std::string title, note;
   std::vector<Selection> where;
-  std::optional<int> rows;         // axis: one strip, one column of spectra, or one row of frames per value
-  std::vector<double> times;       // [s] of the frames shown
-  std::vector<std::string> views;  // of frames
-  std::string x;                   // column of the results
-  std::vector<std::string> y;      // columns; several make several curves
-  std::vector<int> by;             // axes: a curve for every combination of their values
+  std::optional<int> rows;               // axis: one strip, one column of spectra, or one row of frames per value
+  std::vector<double> times;             // [s] of the frames shown
+  std::vector<std::string> times_where;  // in the study file, of each
+  std::vector<std::string> views;        // of frames
+  std::string x;                         // column of the results
+  std::vector<std::string> y;            // columns; several make several curves
+  std::vector<int> by;                   // axes: a curve for every combination of their values
   std::string x_label, y_label;
   bool log_x = false, log_y = false;
 };

@@ -12,6 +12,7 @@
 #include "base/utf8.h"
 #include "base/xml.h"
 #include "cli/page/report_page.h"
+#include "cli/study/study_plan.h"
 #include "cli/text/command_text.h"
 #include "render/image/png.h"
 
@@ -131,6 +132,29 @@ std::string head(const StudyContents& contents, const Columns& columns, bool wit
   return row + "</tr>\n";
 }
 
+// Decimals of "1,024.50"; none where a power of ten follows.
+std::size_t decimals_of(const std::string& number) {
+  const std::size_t point = number.find('.');
+  return point == std::string::npos || number.find("×") != std::string::npos ? 0 : number.size() - point - 1;
+}
+
+std::size_t most_decimals(const StudyContents& contents, const ResultColumn& column) {
+  std::size_t most = 0;
+  for (const RunResult& result : contents.results)
+    if (const std::optional<double> value = result.value(column.name))
+      most = std::max(most, decimals_of(readable(*value)));
+  return most;
+}
+
+// With blanks as wide as the point and the digits that others of its column have: points stand below one another.
+std::string lined_up(std::string number, std::size_t most) {
+  const std::size_t decimals = decimals_of(number);
+  if (number.find("×") != std::string::npos) return number;
+  if (decimals == 0 && most > 0) number += "\u2008";
+  for (std::size_t k = decimals; k < most; ++k) number += "\u2007";
+  return number;
+}
+
 // A run that was rendered has a page of its own.
 std::string numbered(const StudyContents& contents, const StudyRun& run) {
   const fs::path page = run_folder("", contents.study, run) / "film" / "index.html";
@@ -149,7 +173,8 @@ std::string row(const StudyContents& contents, std::size_t r, const Columns& col
   if (with_status) out += fmt::format("<td>{}</td>", name(result.status));
   for (const ResultColumn* column : columns) {
     const std::optional<double> value = result.value(column->name);
-    out += fmt::format(R"(<td class="number">{}</td>)", value ? readable(*value) : "");
+    out += fmt::format(R"(<td class="number">{}</td>)",
+                       value ? lined_up(readable(*value), most_decimals(contents, *column)) : "");
   }
   return out + "</tr>\n";
 }
@@ -197,9 +222,15 @@ std::string results(const StudyContents& contents) {
          "<p><a href=\"results.csv\">results.csv</a>, <a href=\"study.json\">study.json</a></p>\n";
 }
 
+// Into the folder that the page is in.
+std::string command_again(const StudyContents& contents) {
+  std::vector<std::string> words{"billow", "study", contents.study.file.string()};
+  if (contents.folder != usual_folder(contents.study.file)) words.insert(words.end(), {"-o", contents.folder.string()});
+  return command_line(words);
+}
+
 std::string commands(const StudyContents& contents) {
-  std::string out = "<h2>Again</h2>\n<pre class=\"command\">" +
-                    xml_escape(command_line({"billow", "study", contents.study.file.string()})) +
+  std::string out = "<h2>Again</h2>\n<pre class=\"command\">" + xml_escape(command_again(contents)) +
                     "</pre>\n<details><summary>The command for each run, and its whole scene</summary>\n";
   for (std::size_t r = 0; r < contents.runs.size(); ++r) {
     const RunResult& result = contents.results[r];
@@ -216,7 +247,7 @@ std::string commands(const StudyContents& contents) {
 
 // "2 of 9 runs diverged:", and below it why, run by run, the first few of them.
 std::string shortfall(const StudyContents& contents, RunStatus status) {
-  constexpr int most_explained = 8;
+  constexpr int most_explained = 3;
   int runs = 0;
   std::string why;
   for (std::size_t r = 0; r < contents.runs.size(); ++r) {
@@ -226,6 +257,7 @@ std::string shortfall(const StudyContents& contents, RunStatus status) {
                        result.message);
   }
   if (runs == 0) return "";
+  if (runs > most_explained && !why.empty()) why += fmt::format("\nand {} more: see the table", runs - most_explained);
   const std::string what =
       status == RunStatus::missing ? (runs == 1 ? "is missing" : "are missing") : std::string(name(status));
   return fmt::format("<p class=\"note {}\">{} of {} runs {}{}{}</p>\n", status == RunStatus::diverged ? "warn" : "bad",

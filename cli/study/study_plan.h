@@ -17,6 +17,7 @@ struct StudyPlan {
   std::filesystem::path folder;
   std::vector<StudyRun> runs;
   std::vector<std::string> hash;  // per run, what its result must carry to count; see read_hash()
+  std::vector<double> duration;   // [s] per run, of its scene; 0: not read yet
   bool untrusted = false;         // no file outside of the study's folder is read
   render::Backend backend = {};   // that draws its runs
   int threads = 0;                // of a run; 0: one per core
@@ -32,11 +33,17 @@ struct StudyPlan {
   RunResult result_of(int number) const;
 };
 
-/// `folder` may be empty: out/ and the study's name. Throws InputError as read_study.
+/// out/ and the study's name.
+std::filesystem::path usual_folder(const std::filesystem::path& study);
+
+/// `folder` may be empty: the usual one. Throws InputError as read_study.
 StudyPlan make_plan(const std::filesystem::path& study, const std::filesystem::path& folder);
 
-/// Reads a run's scene, which its hash is of. Throws InputError where the scene is at fault.
+/// Reads a run's scene, which its hash and duration are of. Throws InputError where the scene is at fault.
 void read_hash(StudyPlan& plan, int number);
+
+/// Throws InputError where a picture wants a moment after the end of each of its runs, all of which have been read.
+void check_times(const StudyPlan& plan);
 
 /// Results count as they stand here; a run that failed or was not done does not.
 bool is_finished(const RunResult& result);

@@ -176,9 +176,10 @@ class AlongX {
     return static_cast<double>(std::find(values_.begin(), values_.end(), value) - values_.begin());
   }
 
+  // The axis's own name stands below them.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const int value : values_) names.push_back(axis_->values[value].shown);
+    for (const int value : values_) names.push_back(axis_->values[value].label);
     return names;
   }
 
@@ -200,11 +201,13 @@ std::optional<double> value_in(const Study& study, const ShownRun& shown, const 
   return std::nullopt;
 }
 
-// "FB Euler and RK4 diverged", "7 runs are missing"
+// "FB Euler and RK4 diverged", "h = 0.1 s; h = 0.2 s; h = 0.3 s and 4 more are missing"
 std::string said_of(const std::vector<std::string>& which, const std::string& one, const std::string& several) {
   constexpr std::size_t most_named = 3;
-  return which.size() > most_named ? fmt::format("{} runs {}", which.size(), several)
-                                   : fmt::format("{} {}", fmt::join(which, " and "), which.size() > 1 ? several : one);
+  if (which.size() <= most_named)
+    return fmt::format("{} {}", fmt::join(which, " and "), which.size() > 1 ? several : one);
+  return fmt::format("{} and {} more {}", fmt::join(which.begin(), which.begin() + most_named, "; "),
+                     which.size() - most_named, several);
 }
 
 std::vector<std::string> labels_where(const std::vector<ShownRun>& runs, const auto& holds) {
@@ -311,22 +314,26 @@ std::vector<std::pair<double, double>> spectrum_of_run(const ShownRun& run) {
   });
 }
 
+// What came before a divergence is no run's spectrum.
 render::Plot spectrum_plot(const StudyContents& contents, const PictureSpec& picture) {
-  const std::vector<ShownRun> runs = rendered_runs(contents, picture);
+  const std::vector<ShownRun> all = shown_runs(contents, picture);
+  std::vector<ShownRun> runs = all;
+  std::erase_if(runs, [](const ShownRun& run) { return run.result->status != RunStatus::done; });
   CurveSet set(contents.study, picture, runs);
   for (const ShownRun& run : runs)
     for (const auto& [frequency, power] : spectrum_of_run(run)) set.add(*run.run, 0, frequency, power);
-  std::vector<ShownRun> absent = shown_runs(contents, picture);
-  std::erase_if(absent, [](const ShownRun& run) { return run.result->status == RunStatus::diverged; });
+  const std::string missing = left_out(all, {});
+  std::vector<render::Curve> curves = set.curves("the scene");
+  require_points(curves, missing);
   return {.title = picture.title,
           .x_label = picture.x_label.empty() ? "radial frequency [cycles per side]" : picture.x_label,
           .y_label = picture.y_label.empty() ? "mean square velocity [m²/s²]" : picture.y_label,
           .log_x = picture.log_x,
           .log_y = picture.log_y,
           .points = false,
-          .curves = set.curves("the scene"),
+          .curves = std::move(curves),
           .dimensions = set.dimensions(),
-          .note = joined(picture.note, left_out(absent, {})),
+          .note = joined(picture.note, missing),
           .x_names = {}};
 }
 

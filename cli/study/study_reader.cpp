@@ -146,14 +146,14 @@ std::vector<int> read_axis_list(const Study& study, MapReader& map, std::string_
   return axes;
 }
 
-std::vector<double> read_times(MapReader& map, bool required) {
-  std::vector<double> times;
+void read_times(MapReader& map, bool required, PictureSpec& picture) {
   const Node* node = required ? &map.require("times") : map.find("times");
-  if (!node) return times;
-  for (const NodePtr& item : read_list(*node, "times"))
-    times.push_back(read_number(*item, "a time", map.key("times").range));
-  if (times.empty() && required) fail_at(node->where, "times is empty");
-  return times;
+  if (!node) return;
+  for (const NodePtr& item : read_list(*node, "times")) {
+    picture.times.push_back(read_number(*item, "a time", map.key("times").range));
+    picture.times_where.push_back(item->where);
+  }
+  if (picture.times.empty() && required) fail_at(node->where, "times is empty");
 }
 
 std::vector<std::string> read_views(MapReader& map) {
@@ -207,7 +207,7 @@ void read_kind(const Study& study, MapReader& map, PictureSpec& picture) {
     case PictureKind::strips:
     case PictureKind::frames:
       if (const Node* rows = map.find("rows")) picture.rows = axis_index(study, *rows, "rows");
-      picture.times = read_times(map, picture.kind == PictureKind::frames);
+      read_times(map, picture.kind == PictureKind::frames, picture);
       picture.views = read_views(map);
       break;
     case PictureKind::spectra:

@@ -76,6 +76,17 @@ std::optional<std::pair<long, double>> frame_at(const std::vector<std::pair<long
   return *nearest;
 }
 
+// The frames nearest to the picture's times, each once.
+std::vector<std::pair<long, double>> frames_at(const std::vector<std::pair<long, double>>& frames,
+                                               const std::vector<double>& times) {
+  std::vector<std::pair<long, double>> found;
+  for (const double time : times)
+    if (const auto frame = frame_at(frames, time);
+        frame && std::find(found.begin(), found.end(), *frame) == found.end())
+      found.push_back(*frame);
+  return found;
+}
+
 // Where the scene does not ask for the view, doing the run again would not help.
 void require_view(const ShownFilm& film, const std::string& view) {
   const auto& views = film.record.views;
@@ -122,11 +133,10 @@ render::SheetRow frames_below(const std::vector<ShownFilm>& films, const Picture
   const ShownFilm& film = films.front();
   render::SheetRow frames{films.size() > 1 ? lettered(films.size(), "frames of " + film.run.label) : "", {}, {}, false};
   const int width = std::max(40, strip_width / static_cast<int>(picture.times.size()) - 6);
-  for (const double time : picture.times)
-    if (const auto frame = frame_at(film.record.frames, time)) {
-      frames.panels.push_back(frame_panel(film, picture.views.front(), frame->first, width));
-      frames.times.push_back(frame->second);
-    }
+  for (const auto& [frame, time] : frames_at(film.record.frames, picture.times)) {
+    frames.panels.push_back(frame_panel(film, picture.views.front(), frame, width));
+    frames.times.push_back(time);
+  }
   return frames;
 }
 
@@ -202,11 +212,9 @@ void begin_row_where_full(render::Sheet& sheet, std::size_t most) {
 // Frames of one run in rows of a handful.
 void add_film(render::Sheet& sheet, const ShownFilm& film, const PictureSpec& picture, std::size_t most) {
   sheet.rows.push_back({film.label(), {}, {}, false});
-  for (const double time : picture.times) {
-    const auto frame = frame_at(film.record.frames, time);
-    if (!frame) continue;
+  for (const auto& frame : frames_at(film.record.frames, picture.times)) {
     begin_row_where_full(sheet, most);
-    add_moment(sheet.rows.back(), film, picture, *frame, "");
+    add_moment(sheet.rows.back(), film, picture, frame, "");
   }
   if (std::string& label = sheet.rows.back().label; sheet.rows.back().panels.empty())
     label += std::string(label.empty() ? "" : ": ") + "ended before these times";

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 #include "base/atomic_file.h"
@@ -34,6 +36,7 @@ static_assert(marks.size() == most_colours && dashes.size() == most_colours && m
 constexpr std::string_view svg_faces = "DejaVu Sans,Verdana,sans-serif";
 constexpr std::string_view bold_face = "DejaVu Sans:Bold";
 constexpr const char* any_colour = "#4a5257";  // of what stands for all colours
+constexpr std::size_t most_wider = 2;          // curves that show below one another; more are named
 constexpr double pointless_marks = 8.0;        // on a curve whose points are not marked
 
 // As gnuplot reads it between double quotes. Everything but letters, digits and blanks is written by its number, so
@@ -92,23 +95,48 @@ struct Page {
   }
 };
 
-bool coincide(const Curve& a, const Curve& b, const PlacedPanel& panel) {
-  const auto near = [](double p, double q, const PlotAxis& axis) {
-    return std::isnan(p) == std::isnan(q) && !(std::abs(p - q) > 2e-3 * (axis.high - axis.low));
-  };
+// In the same place on the page, as far as eyes can tell.
+bool stand_together(double p, double q, const PlotAxis& axis, bool logarithmic) {
+  constexpr double visible = 2e-3;  // of an axis
+  if (!logarithmic) return std::isnan(p) == std::isnan(q) && !(std::abs(p - q) > visible * (axis.high - axis.low));
+  const bool shown = p > 0.0, other_shown = q > 0.0;
+  if (!shown || !other_shown) return shown == other_shown;
+  return !(std::abs(std::log(p / q)) > visible * std::log(axis.high / axis.low));
+}
+
+bool coincide(const Plot& plot, std::size_t one, std::size_t other, const PlacedPanel& panel) {
+  const Curve &a = plot.curves[one], &b = plot.curves[other];
   bool same = a.x.size() == b.x.size();
   for (std::size_t k = 0; same && k < a.x.size(); ++k)
-    same = near(a.x[k], b.x[k], panel.x) && near(a.y[k], b.y[k], panel.y);
+    same = stand_together(a.x[k], b.x[k], panel.x, plot.log_x) && stand_together(a.y[k], b.y[k], panel.y, plot.log_y);
   return same;
 }
 
-// A curve is wider for each that is drawn over it in the same places, and without gaps then, so that it shows on either
-// side.
-int covers_of(const Plot& plot, const PlacedPanel& panel, std::size_t number) {
+// What is drawn over a curve in the same places, the lowest first.
+std::vector<std::size_t> covers_of(const Plot& plot, const PlacedPanel& panel, std::size_t number) {
+  std::vector<std::size_t> covers;
   const auto self = std::find(panel.curves.begin(), panel.curves.end(), number);
-  return static_cast<int>(std::count_if(self + 1, panel.curves.end(), [&](std::size_t other) {
-    return coincide(plot.curves[number], plot.curves[other], panel);
-  }));
+  std::copy_if(self + 1, panel.curves.end(), std::back_inserter(covers),
+               [&](std::size_t other) { return coincide(plot, number, other, panel); });
+  return covers;
+}
+
+// "Covered: exp, gauss as box." Of curves that lie below so many others that nothing of them shows.
+std::string covered_text(const Plot& plot, const PlotLayout& layout) {
+  std::map<std::size_t, std::vector<std::string_view>> covered;  // by what covers them
+  for (const PlacedPanel& panel : layout.panels)
+    for (const std::size_t c : panel.curves)
+      if (const auto covers = covers_of(plot, panel, c); has_points(plot, plot.curves[c]) && covers.size() > most_wider)
+        covered[covers[covers.size() - most_wider - 1]].push_back(plot.curves[c].name);
+  std::vector<std::string> groups;
+  for (const auto& [cover, names] : covered)
+    groups.push_back(fmt::format("{} as {}", fmt::join(names, "; "), plot.curves[cover].name));
+  return groups.empty() ? "" : fmt::format("Covered: {}.", fmt::join(groups, ". "));
+}
+
+Plot with_note(Plot plot, const std::string& more) {
+  plot.note += (plot.note.empty() || more.empty() ? "" : " ") + more;
+  return plot;
 }
 
 std::string curve_command(const Plot& plot, const Page& page, const PlacedPanel& panel, std::size_t number) {
@@ -116,12 +144,13 @@ std::string curve_command(const Plot& plot, const Page& page, const PlacedPanel&
   const std::size_t points = plot.curves[number].x.size();
   const int every =
       plot.points ? 1 : std::max(1, static_cast<int>(std::ceil(static_cast<double>(points) / pointless_marks)));
-  const int covers = covers_of(plot, panel, number);
+  // Wider for what covers it, and without gaps then, so that it shows on either side.
+  const std::size_t covers = std::min(most_wider, covers_of(plot, panel, number).size());
   // Nothing lies between things that x counts.
   return fmt::format("$curve{} using 1:2 with {} lc rgb \"{}\" lw {} dt {} pt {} ps {:.4g} pi {} notitle", number,
                      plot.x_names.empty() ? "linespoints" : "points", colours[look.colour], 2 + 3 * covers,
                      covers > 0 ? dashes[0] : dashes[look.mark], marks[look.mark],
-                     page.mark_size * (1.0 + 0.5 * covers), every);
+                     page.mark_size * (1.0 + 0.5 * static_cast<double>(covers)), every);
 }
 
 std::string text_command(const Page& page, const PlacedText& text) {
@@ -272,14 +301,16 @@ fs::path with_extension(const fs::path& stem, const char* extension) {
 void write_plot(const Plot& plot, const fs::path& stem) {
   const fs::path png = with_extension(stem, ".png"), svg = with_extension(stem, ".svg");
   write_file_atomically(with_extension(stem, ".csv"), csv(plot));
-  const PlotLayout layout = lay_out(plot);
+  // Axes have to be known before what coincides on them can be told.
+  const Plot noted = with_note(plot, covered_text(plot, lay_out(plot)));
+  const PlotLayout layout = lay_out(noted);
   if (layout.panels.empty()) throw OutputError(fmt::format("{}: there is no point to plot", png.string()));
   const std::string size = fmt::format("size {},{} background rgb \"white\"", layout.width, layout.height);
   // Cairo's terminal counts fonts in points of 96 to the inch.
   const std::string raster = fmt::format("set terminal pngcairo noenhanced font \"DejaVu Sans,12\" {}\n", size);
   const std::string vectors = fmt::format("set terminal svg noenhanced font \"{},16\" {}\n", svg_faces, size);
-  write_file_atomically(png, drawn(script(plot, {layout, 0.75, 0.9}, raster), png));
-  write_file_atomically(svg, well_formed(drawn(script(plot, {layout, 1.0, 0.55}, vectors), svg)));
+  write_file_atomically(png, drawn(script(noted, {layout, 0.75, 0.9}, raster), png));
+  write_file_atomically(svg, well_formed(drawn(script(noted, {layout, 1.0, 0.55}, vectors), svg)));
 }
 
 }  // namespace billow::render

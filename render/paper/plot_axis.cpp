@@ -75,9 +75,9 @@ double round_step(double span, double wanted) {
 }
 
 PlotAxis linear_axis(double least, double greatest, double wanted) {
-  // A constant gets an axis as wide as itself.
+  // A constant gets an axis a fifth as wide as itself.
   const double size = std::max(std::abs(least), std::abs(greatest));
-  const double margin = greatest - least > 1e-9 * size ? 0.0 : size > 0.0 ? 0.5 * size : 1.0;
+  const double margin = greatest - least > 1e-9 * size ? 0.0 : size > 0.0 ? 0.1 * size : 1.0;
   const double step = round_step(greatest - least + 2.0 * margin, std::max(1.0, wanted));
   PlotAxis axis{step * std::floor((least - margin) / step + rounding),
                 step * std::ceil((greatest + margin) / step - rounding)};

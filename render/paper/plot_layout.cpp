@@ -65,7 +65,7 @@ class Layout {
   PlotLayout made() {
     if (shown_panels_.empty()) return page_;
     page_.width = static_cast<int>(page_width);
-    columns_ = shown_panels_.size() == 1 ? 1 : shown_panels_.size() == 2 || shown_panels_.size() == 4 ? 2 : 3;
+    columns_ = columns_of_panels();
     page_.tick_size = columns_ == 1 ? text_font : columns_ == 2 ? small_font : note_font;
     y_ = page_edge;
     add_lines(plot_.title, title_font, true, false, most_lines);
@@ -90,6 +90,17 @@ class Layout {
       for (std::size_t d = 0; d < at.size(); ++d) shown_values_.emplace(static_cast<int>(d), at[d]);
     }
     shown_panels_.assign(panels.begin(), panels.end());
+  }
+
+  // Three, but where panels of one kind come in twos or fours: a row shows one kind only.
+  int columns_of_panels() const {
+    constexpr std::size_t most_in_two_columns = 12;
+    const std::size_t count = shown_panels_.size();
+    if (count == 1) return 1;
+    if (count == 2 || count == 4) return 2;
+    if (arrangement_.by_panel.size() < 2 || count > most_in_two_columns) return 3;
+    const auto a_kind = count / dimensions_[arrangement_.by_panel.front()].values.size();
+    return a_kind % 3 != 0 && a_kind % 2 == 0 ? 2 : 3;
   }
 
   // Lines across the page from y_ on.

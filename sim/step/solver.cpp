@@ -158,6 +158,10 @@ std::string Solver::divergence_text(const std::string& advice) const {
 std::string Solver::advice() const {
   const std::string scheme = fmt::format("{}{}", name(options_.method), options_.filter ? " with this filter" : "");
   if (!options_.limit) return fmt::format("{} has no known limit here; use a smaller step", scheme);
+  if (*options_.limit <= 0.0)
+    return fmt::format(
+        "{} grows at every step here; use another method{} or add damping", scheme,
+        options_.filter && options_.method != Method::forward_euler ? ", 'form: conserving', a larger lambda" : "");
   if (options_.step > *options_.limit)
     return fmt::format("the limit for {} is {:.4g} s; use 'step: auto' or a smaller step", scheme, *options_.limit);
   return fmt::format(

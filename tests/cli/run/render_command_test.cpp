@@ -248,6 +248,22 @@ TEST_F(RenderCommand, DoesNotResumeAnotherScene) {
   EXPECT_NE(result.errors.find("is not of this scene"), std::string::npos) << result.errors;
 }
 
+// What stands on the page can be pasted as it is: the folder holds the run by then.
+TEST_F(RenderCommand, ItsPageSaysHowToReplaceTheRun) {
+  ASSERT_EQ(render().status, 0);
+  EXPECT_NE(test::read_text(film("index.html")).find(" --overwrite</pre>"), std::string::npos);
+  EXPECT_EQ(record()["command"].get<std::string>().find("--overwrite"), std::string::npos);
+}
+
+TEST_F(RenderCommand, AdvisesNoStepWhereNoneIsStable) {
+  scene(small_scene("{method: forward_euler, step: 0.05}"));
+  const ToolResult result = render();
+  EXPECT_EQ(result.status, 5);
+  EXPECT_NE(result.errors.find("forward_euler grows at every step here; use another method or add damping"),
+            std::string::npos)
+      << result.errors;
+}
+
 TEST_F(RenderCommand, StopsAtADivergenceAndKeepsTheFramesBeforeIt) {
   scene(small_scene("{method: fb_euler, step: 0.01}"));
   const ToolResult result = render();

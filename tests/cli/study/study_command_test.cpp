@@ -191,6 +191,58 @@ pictures:
   EXPECT_NE(test::read_text(made("cost.svg")).find(">Not shown: h = 0.19 s diverged.</text>"), std::string::npos);
 }
 
+TEST_F(StudyCommand, LeavesDivergedRunsOutOfSpectrumCurves) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 20, spectrum: {step: 0.05, at: 0.1}, render.size: [64, 48], render.fps: 1}
+axes: [{name: h, key: solver.step, values: [0.001, 0.19]}]
+pictures: [{name: curves, kind: spectrum_curves, log: [y]}]
+)");
+  ASSERT_EQ(study().status, 0);
+  EXPECT_NE(test::read_text(made("curves.svg")).find(">Not shown: h = 0.19 s diverged.</text>"), std::string::npos);
+  EXPECT_EQ(test::read_text(made("curves.csv")).find("0.19"), std::string::npos);
+}
+
+TEST_F(StudyCommand, RefusesTimesAfterTheEndBeforeItRuns) {
+  folder_.write("study.yaml", R"(billow_study: 1
+scene: scene.yaml
+set: {duration: 0.2}
+pictures: [{name: films, kind: frames, times: [0.1, 3]}]
+)");
+  const ToolResult result = study();
+  EXPECT_EQ(result.status, 4);
+  EXPECT_NE(result.errors.find("study.yaml:4:53: the picture 'films' wants a frame at 3 s, and its runs end at 0.2 s"),
+            std::string::npos)
+      << result.errors;
+  EXPECT_FALSE(fs::exists(made("runs")));
+}
+
+TEST_F(StudyCommand, ShowsAFrameThatSeveralTimesAreNearestToOnce) {
+  const std::string text =
+      "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.2, render.size: [64, 48], render.fps: 25}\n"
+      "pictures: [{name: films, kind: frames, times: [0, 0.12, 0.121]}]\n";
+  folder_.write("study.yaml", text);
+  ASSERT_EQ(study().status, 0);
+  const render::Image twice = render::read_png(made("films.png"));
+  folder_.write("study.yaml", test::edited(text, ", 0.121", ""));
+  ASSERT_EQ(study().status, 0);
+  EXPECT_EQ(render::read_png(made("films.png")).pixels, twice.pixels);
+}
+
+TEST_F(StudyCommand, NamesTheFirstMissingRunsAndCountsTheOthers) {
+  folder_.write("study.yaml", test::edited(plot_study, "[0.5, 1]", "[1, 2, 3, 4, 5, 6, 7]"));
+  const ToolResult result = study({"--collect"});
+  EXPECT_NE(result.errors.find("and 2 more"), std::string::npos) << result.errors;
+  ASSERT_EQ(study({"--only", "1"}).status, 0);
+  study({"--collect"});
+  EXPECT_NE(test::read_text(made("limits.svg")).find("λ = 4 and 3 more are missing."), std::string::npos);
+}
+
+TEST_F(StudyCommand, NamesItsFolderInTheCommandToDoItAgain) {
+  ASSERT_EQ(study().status, 0);
+  EXPECT_NE(test::read_text(made("index.html")).find(">billow study study.yaml -o made</pre>"), std::string::npos);
+}
+
 TEST_F(StudyCommand, NamesWhatIsPlotted) {
   folder_.write("study.yaml", R"(billow_study: 1
 scene: scene.yaml
@@ -205,15 +257,16 @@ pictures:
   - {name: none, kind: plot, x: lambda, y: error}
 )");
   const ToolResult result = study();
-  EXPECT_NE(result.errors.find("'none' is missing: there is no point to plot. Not shown: 4 runs have no error.\n"),
+  EXPECT_NE(result.errors.find(
+                "'none' is missing: there is no point to plot. Not shown: λ = 1, symmetric; λ = 1, conserving; λ = 2, "
+                "symmetric and 1 more have no error.\n"),
             std::string::npos)
       << result.errors;
   const std::string several = test::read_text(made("several.svg")), one = test::read_text(made("one.svg"));
   for (const char* text :
        {"largest stable step [s]", "λ [per mean rest length]", "symmetric", "certified at rest", "Once."})
     EXPECT_NE(several.find(fmt::format(">{}</text>", text)), std::string::npos) << text;
-  for (const char* text :
-       {"step as a multiple of the unfiltered limit, certified at rest", "form", "conserving", "λ = 2"})
+  for (const char* text : {"step [× unfiltered limit], certified at rest", "form", "conserving", "λ = 2"})
     EXPECT_NE(one.find(fmt::format(">{}</text>", text)), std::string::npos) << text;
   const std::string page = test::read_text(made("index.html"));
   EXPECT_EQ(page.find("Once."), page.rfind("Once.")) << "the picture has it; the page says it to those who cannot see";

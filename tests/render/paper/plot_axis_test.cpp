@@ -27,6 +27,8 @@ TEST(PlotAxis, HasRoomAroundAConstant) {
   EXPECT_LT(axis.low, 400);
   EXPECT_GT(axis.high, 400);
   EXPECT_GE(labels_of(axis).size(), 2u);
+  EXPECT_THAT(labels_of(linear_axis(391495, 391495, 4)),
+              ElementsAre("340,000", "360,000", "380,000", "400,000", "420,000", "440,000"));
   const PlotAxis zero = linear_axis(0, 0, 4);
   EXPECT_LT(zero.low, zero.high);
   EXPECT_THAT(labels_of(logarithmic_axis(1e6, 1e6, 6)), ElementsAre("10⁵", "10⁶", "10⁷"));

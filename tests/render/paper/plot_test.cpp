@@ -2,6 +2,7 @@
 #include "render/paper/plot.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -97,6 +98,19 @@ TEST(WritePlot, LeavesAGapWhereThereIsNoNumber) {
   write_plot(gap, folder.path() / "gap");
   EXPECT_NE(test::read_text(folder.path() / "gap.svg"), test::read_text(folder.path() / "whole.svg"));
   EXPECT_EQ(test::read_text(folder.path() / "gap.csv"), "curve,x,y\nc,0,1\nc,1,2\nc,3,2\nc,4,1\n");
+}
+
+// At most two show below the uppermost.
+TEST(WritePlot, NamesCurvesThatOthersCoverWhole) {
+  const test::TemporaryFolder folder;
+  Plot plot{"", "x", "y", false, true, true, {}};
+  for (const char* name : {"a", "b", "c", "d", "e"}) plot.curves.push_back({name, {0, 1}, {1e-3, 1}});
+  write_plot(plot, folder.path() / "same");
+  EXPECT_THAT(test::read_text(folder.path() / "same.svg"), testing::HasSubstr(">Covered: a; b as c.</text>"));
+  plot.curves[0].y = {1e-4, 1};  // as far away as another decade, little as that is of the whole axis
+  plot.curves[1].y = {1e-2, 1};
+  write_plot(plot, folder.path() / "apart");
+  EXPECT_THAT(test::read_text(folder.path() / "apart.svg"), testing::Not(testing::HasSubstr("Covered")));
 }
 
 Plot thirty_six_curves() {
