@@ -122,7 +122,8 @@ std::string curves(const ComparedSequence& sequence, const std::vector<ComparedP
   const double first = static_cast<double>(sequence.frames.front().number),
                last = static_cast<double>(sequence.frames.back().number);
   const auto plot = [&](const std::string& title, const std::string& unit, std::vector<PlotLine> lines) {
-    return line_plot({title, unit, first, last, std::move(lines), true, true});
+    return line_plot(
+        {.title = title, .unit = unit, .begin = first, .end = last, .lines = std::move(lines), .by_frame = true});
   };
   const auto& sample = pairs[sequence.frames.front().pair].comparison;
   const bool is_float = sample && sample->depth == render::Depth::floats;

@@ -278,7 +278,9 @@ std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   faults.insert(names.b.fault.begin(), names.b.fault.end());
   for (const auto& [name, why] : faults) pairs.push_back(unreadable(name, why, options));
   add_idle_tolerances(names, options, pairs);
-  if (pairs.empty()) throw InputError("neither folder holds a PNG or OpenEXR image");
+  if (pairs.empty())
+    throw InputError(
+        fmt::format("there is no PNG or OpenEXR image in {}, nor in {}", options.b.string(), options.a.string()));
   return pairs;
 }
 
@@ -347,6 +349,7 @@ void check_accepted_names(const std::vector<ComparedPair>& pairs, const CompareO
           fmt::format("--accept-only: there is no image '{}'{}", name, suggestion(name, known, "images are")));
     const ComparedPair& pair = pairs[static_cast<std::size_t>(found - known.begin())];
     if (const auto fault = fault_of(pair.b)) throw InputError(fmt::format("--accept-only: {}", *fault));
+    if (!can_be_accepted(pair)) throw InputError(fmt::format("--accept-only: {}: {}", pair.name, pair.why));
   }
 }
 
@@ -367,12 +370,18 @@ void check_may_accept(std::string_view option) {
         "{}: CI is set in the environment, and a machine must not accept; do it where somebody looks", option));
 }
 
+bool can_be_accepted(const ComparedPair& pair) {
+  if (pair.verdict == Verdict::same || fault_of(pair.b)) return false;
+  std::error_code error;
+  return pair.verdict == Verdict::different || !fs::exists(pair.a, error) || fault_of(pair.a).has_value();
+}
+
 std::vector<std::string> accept(std::vector<ComparedPair>& pairs, const CompareOptions& options) {
   check_may_accept("--accept");
   check_accepted_names(pairs, options);
   std::vector<std::string> accepted;
   for (ComparedPair& pair : pairs) {
-    if (pair.verdict == Verdict::same || !is_asked_for(pair, options) || fault_of(pair.b)) continue;
+    if (!is_asked_for(pair, options) || !can_be_accepted(pair)) continue;
     try {
       copy(pair, options);
     } catch (const OutputError& error) {

@@ -42,6 +42,10 @@ ComparedPair compared_picture(const std::string& name, const CompareOptions& opt
 /// Throws InputError where the environment variable CI is set: a machine must not accept. `option` asked for it.
 void check_may_accept(std::string_view option);
 
+/// Whether its picture may become the baseline: it can be read, and it differs, or there is no baseline that can be.
+/// Where both can be read and nobody could judge them, as by a tolerance that is at fault, that is what to mend.
+bool can_be_accepted(const ComparedPair& pair);
+
 /// Copies from the second folder, or file, to the first those of `pairs` that differ, are new there or damaged there,
 /// and are whole images in the second; all, or those of options.accept_only; each whole or not at all, none through a
 /// link. Their verdict becomes `same`. The names of what was copied. Throws as

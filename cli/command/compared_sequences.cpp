@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <tuple>
 
@@ -32,6 +33,9 @@ NumberedName numbered(const std::string& name) {
   return error == std::errc() ? result : NumberedName{};
 }
 
+// A test without pictures is a row, but no frame.
+bool names_picture(const std::string& name) { return std::filesystem::path(name).has_extension(); }
+
 bool is_unequal(const ComparedPair& pair) { return !pair.comparison || pair.comparison->apart > 0.0; }
 
 auto badness(const ComparedPair& pair) {
@@ -56,7 +60,7 @@ void summarize(ComparedSequence& sequence, const std::vector<ComparedPair>& pair
 std::vector<ComparedSequence> sequences_of(const std::vector<ComparedPair>& pairs) {
   std::map<std::string, std::vector<ComparedSequence::Frame>> groups;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (const NumberedName name = numbered(pairs[k].name); name.number >= 0)
+    if (const NumberedName name = numbered(pairs[k].name); name.number >= 0 && names_picture(pairs[k].name))
       groups[name.pattern].push_back({name.number, k});
   std::vector<ComparedSequence> sequences;
   for (auto& [name, frames] : groups) {
@@ -71,7 +75,8 @@ std::vector<ComparedSequence> sequences_of(const std::vector<ComparedPair>& pair
 std::string sequence_text(const ComparedSequence& s, const std::vector<ComparedPair>& pairs) {
   std::string text = fmt::format("{}: {} frames, ", s.name, s.frames.size());
   if (!s.first_unequal) return text + "all equal";
-  text += s.first_different ? fmt::format("{} differ, the first {}", s.different, s.first_different->number)
+  text += s.first_different ? fmt::format("{} differ{}, the first {}", s.different, s.different == 1 ? "s" : "",
+                                          s.first_different->number)
                             : std::string("all the same");
   if (!s.first_different || s.first_unequal->number < s.first_different->number)
     text += fmt::format(", unequal from {} on", s.first_unequal->number);

@@ -172,11 +172,6 @@ Json record_of(const GoldenTests& tests, const std::vector<ComparedPair>& pairs,
   return record;
 }
 
-bool has_new_picture(const ComparedPair& pair) {
-  std::error_code error;
-  return !is_same(pair) && fs::is_regular_file(pair.b, error);
-}
-
 // What to do about those that differ.
 void say_what_next(const std::vector<JudgedTest>& judged, const GoldenOptions& options, const GoldenFolder& folder) {
   std::size_t lacking = 0, all = 0;
@@ -185,7 +180,7 @@ void say_what_next(const std::vector<JudgedTest>& judged, const GoldenOptions& o
     all += test.pairs.size();
     lacking +=
         test.pairs.size() - static_cast<std::size_t>(std::count_if(test.pairs.begin(), test.pairs.end(), is_same));
-    if (std::any_of(test.pairs.begin(), test.pairs.end(), has_new_picture)) names.push_back(test.test->name);
+    if (std::any_of(test.pairs.begin(), test.pairs.end(), can_be_accepted)) names.push_back(test.test->name);
   }
   if (lacking == 0) return;
   say_line("{} of {} need a look: {}", lacking, all, (folder.path() / "index.html").string());

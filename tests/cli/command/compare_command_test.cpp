@@ -278,6 +278,22 @@ TEST_F(CompareCommand, AcceptsWhatDiffersOrIsNewAndNothingElse) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a/gone.png"));
 }
 
+// What is to be mended then is the tolerance.
+TEST_F(CompareCommand, AcceptsNothingThatCouldNotBeJudged) {
+  unsetenv("CI");
+  write("a/1.png", picture());
+  write("b/1.png", changed(picture(), 3, 5, 100));
+  folder_.write("a/1.tolerance.yaml", "reason: a lamp\nmask: none.png\n");
+  const std::string before = test::read_text(folder_.path() / "a/1.png");
+  const ToolResult all = compare({"a", "b", "--accept"});
+  EXPECT_NE(all.status, 0);
+  EXPECT_THAT(all.output, testing::Not(HasSubstr("accepted")));
+  const ToolResult one = compare({"a", "b", "--accept-only", "1.png"});
+  EXPECT_EQ(one.status, 4);
+  EXPECT_THAT(one.errors, HasSubstr("--accept-only: 1.png: "));
+  EXPECT_EQ(test::read_text(folder_.path() / "a/1.png"), before);
+}
+
 TEST_F(CompareCommand, AcceptsNothingWhereNobodyLooks) {
   write("a.png", picture());
   write("b.png", changed(picture(), 3, 5, 60));
