@@ -347,7 +347,9 @@ void add_compare(CLI::App& app, Request& r) {
   CLI::App& c = *app.add_subcommand("compare", "Compare two images (PNG, OpenEXR) or two folders of images");
   c.add_option("A", r.compare.a, "Image or folder")->required();
   c.add_option("B", r.compare.b, "Image or folder")->required();
-  c.add_option("--diff", r.compare.difference, "Write the difference image, times 8")->type_name("FILE");
+  c.add_option("--diff", r.compare.difference,
+               "Write the difference image, times 8; of two folders those of all that differ")
+      ->type_name("FILE|DIR");
   c.add_option("--channel", r.channel,
                "A pixel differs when a channel does by more: of 255, or of white, which is 1 in EXR (default: 3)")
       ->type_name("N|N%");

@@ -31,6 +31,7 @@ const std::vector<PlaceholderRow>& placeholders() {
       {"TESTS", {Of::file, {".yaml", ".yml"}}},
       {"mesh FILE", {Of::file, {".obj", ".off", ".stl", ".ply", ".gltf", ".glb"}}},
       {"FILE", {Of::file}},
+      {"FILE|DIR", {Of::file}},
       {"A", {Of::file}},
       {"B", {Of::file}},
       {"DIR", {Of::folder}},

@@ -55,7 +55,7 @@ int filter_command(const FilterCommandOptions& options);
 
 struct CompareOptions {
   std::filesystem::path a, b;
-  std::filesystem::path difference;  // empty: none written
+  std::filesystem::path difference;  // a file, or of two folders one; empty: none written
   std::filesystem::path report;      // folder of the page; empty: none written
   std::filesystem::path junit;       // JUnit's XML; empty: none written
   ImageTolerance tolerance;

@@ -16,6 +16,7 @@
 #include "base/regular_file.h"
 #include "base/suggest.h"
 #include "cli/run/output_folder.h"
+#include "cli/text/text_file.h"
 #include "render/image/png.h"
 
 namespace billow::cli {
@@ -251,6 +252,34 @@ ComparedPair unreadable(const std::string& name, const std::string& why, const C
   return pair;
 }
 
+// Difference images among the pictures would be pictures themselves next time.
+void check_differences_folder(const CompareOptions& options) {
+  if (options.difference.empty()) return;
+  std::error_code error;
+  if (fs::exists(options.difference, error) && !fs::is_directory(options.difference, error))
+    throw InputError(
+        fmt::format("--diff: {} is no folder, and those of two folders go into one", options.difference.string()));
+  const fs::path wanted = fs::weakly_canonical(options.difference, error);
+  for (const fs::path& folder : {options.a, options.b}) {
+    const fs::path below = wanted.lexically_relative(fs::weakly_canonical(folder, error));
+    if (!below.empty() && *below.begin() != "..")
+      throw InputError(fmt::format("--diff: {} lies in {}, whose images are compared; name another folder",
+                                   options.difference.string(), folder.string()));
+  }
+}
+
+// Of the pairs that differ, by their names: those of NAME.exr are NAME.exr.png.
+void write_differences(const std::vector<ComparedPair>& pairs, const fs::path& folder) {
+  make_folder(folder);
+  for (const ComparedPair& pair : pairs) {
+    if (pair.verdict != Verdict::different || !pair.comparison) continue;
+    fs::path file = pair.name;
+    if (lower_case(file.extension().string()) != ".png") file += ".png";
+    make_folder_within(folder, file.parent_path());
+    write_difference(folder / file, pair);
+  }
+}
+
 // Tolerances of pictures that are not there: a slip in a name, most often.
 void add_idle_tolerances(const Names& names, const CompareOptions& options, std::vector<ComparedPair>& pairs) {
   for (const std::string& name : names.a.tolerances) {
@@ -266,8 +295,7 @@ void add_idle_tolerances(const Names& names, const CompareOptions& options, std:
 }  // namespace
 
 std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
-  if (!options.difference.empty())
-    throw InputError("--diff takes two images, not two folders; compare the pair that differs");
+  check_differences_folder(options);
   const Names names(options);
   std::set<std::string> all = names.a.images;
   all.insert(names.b.images.begin(), names.b.images.end());
@@ -281,6 +309,7 @@ std::vector<ComparedPair> compared_folders(const CompareOptions& options) {
   if (pairs.empty())
     throw InputError(
         fmt::format("there is no PNG or OpenEXR image in {}, nor in {}", options.b.string(), options.a.string()));
+  if (!options.difference.empty()) write_differences(pairs, options.difference);
   return pairs;
 }
 

@@ -509,6 +509,20 @@ TEST_F(CompareCommand, SaysWhereASequenceBeginsToDiffer) {
   EXPECT_EQ(json[0]["worst"], 11);
 }
 
+TEST_F(CompareCommand, WritesTheDifferencesOfFolders) {
+  write("a/1.png", picture());
+  write("b/1.png", picture());
+  write("a/below/2.png", picture());
+  write("b/below/2.png", changed(picture(), 3, 5, 100));
+  EXPECT_EQ(compare({"a", "b", "--diff", "d"}).status, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "d/1.png"));
+  EXPECT_EQ(render::read_png(folder_.path() / "d/below/2.png").row(5)[3 * 3], 255);
+  const ToolResult among = compare({"a", "b", "--diff", "b/d"});
+  EXPECT_EQ(among.status, 4);
+  EXPECT_THAT(among.errors, HasSubstr("--diff: b/d lies in b, whose images are compared; name another folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b/d"));
+}
+
 TEST_F(CompareCommand, ReplacesNeitherAnImageNorAnotherPage) {
   write("a.png", picture());
   write("b.png", changed(picture(), 3, 5, 100));
