@@ -110,7 +110,10 @@ void judge(ComparedPair& pair, const fs::path& baseline, const CompareOptions& o
     pair.why = render::difference_text(*pair.comparison, tolerance.what.threshold);
     if (!images.note().empty()) pair.why += ", " + images.note();
     pair.note = note_of(*pair.comparison, images.note());
-    if (render::within_tolerance(*pair.comparison, tolerance.allowed)) pair.verdict = Verdict::same;
+    if (render::within_tolerance(*pair.comparison, tolerance.allowed))
+      pair.verdict = Verdict::same;
+    else if (const std::string broken = render::broken_limits(*pair.comparison, tolerance.allowed); !broken.empty())
+      pair.why = broken + ": " + pair.why;
   } catch (const InputError& error) {
     pair.verdict = Verdict::unreadable;
     pair.why = error.what();

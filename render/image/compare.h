@@ -124,6 +124,9 @@ struct Tolerance {
 /// Of images with values infinitely far apart no metric but ssim and flip holds.
 bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance = {});
 
+/// Which limits of metrics do not hold: "psnr 49.89 and not at least 60"; empty where images are judged otherwise.
+std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance);
+
 /// In a line, what differs and where: "412 px over 3/255 (0.04 %), worst 31 at (640, 212), all within 1 px of an edge".
 std::string difference_text(const Comparison& comparison, double threshold);
 

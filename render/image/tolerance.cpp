@@ -36,21 +36,28 @@ double largest(Metric metric) {
 
 namespace {
 
+double value_of(const Comparison& c, Metric metric) {
+  switch (metric) {
+    case Metric::max:
+      return c.max;
+    case Metric::rmse:
+      return c.rmse;
+    case Metric::psnr:
+      return c.psnr;
+    case Metric::ssim:
+      return c.ssim;
+    case Metric::flip:
+      return c.flip.value_or(1.0);
+  }
+  throw std::logic_error("a metric has no value");
+}
+
+bool is_high_for_alike(Metric metric) { return metric == Metric::psnr || metric == Metric::ssim; }
+
 bool holds(const Comparison& c, const MetricLimit& m) {
   if (c.not_finite > 0 && !is_of_colours(m.metric)) return false;
-  switch (m.metric) {
-    case Metric::max:
-      return c.max <= m.limit;
-    case Metric::rmse:
-      return c.rmse <= m.limit;
-    case Metric::psnr:
-      return c.psnr >= m.limit;
-    case Metric::ssim:
-      return c.ssim >= m.limit;
-    case Metric::flip:
-      return c.flip && *c.flip <= m.limit;
-  }
-  throw std::logic_error("a metric has no rule");
+  const double value = value_of(c, m.metric);
+  return is_high_for_alike(m.metric) ? value >= m.limit : value <= m.limit;
 }
 
 }  // namespace
@@ -103,6 +110,16 @@ std::string asides(const Comparison& c) {
 }
 
 }  // namespace
+
+std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance) {
+  std::string text;
+  for (const MetricLimit& limit : tolerance.metrics)
+    if (!holds(comparison, limit))
+      text += fmt::format("{}{} {:.4g} and not {} {:.4g}", text.empty() ? "" : ", ", word_of(limit.metric),
+                          value_of(comparison, limit.metric), is_high_for_alike(limit.metric) ? "at least" : "at most",
+                          limit.limit);
+  return text;
+}
 
 std::string difference_text(const Comparison& c, double threshold) {
   if (c.apart == 0.0) return "equal" + asides(c);

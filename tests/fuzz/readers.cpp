@@ -185,7 +185,9 @@ void read_npz_file(std::string_view bytes, const fs::path& folder) { read_npz(la
 cli::StateStore store_in(const fs::path& folder) {
   cli::Scene scene;
   scene.motion_hash = "0123456789abcdef";
-  return {folder / "states", scene, {.step = 0.01}, 4};
+  cli::StepChoice choice;
+  choice.step = 0.01;
+  return {folder / "states", scene, choice, 4};
 }
 
 void read_state_record(std::string_view bytes, const fs::path& folder) {

@@ -154,7 +154,10 @@ TEST_F(CompareCommand, JudgesByTheMetricsThatItIsGiven) {
   EXPECT_EQ(status("ssim", ssim + 0.001), 3);
   EXPECT_EQ(status("flip", flip + 0.00001), 0);
   EXPECT_EQ(status("flip", flip - 0.00001), 3);
-  EXPECT_EQ(with({"--metric", "max=30", "--metric", "rmse=0.1"}).status, 3);
+  const ToolResult broken = with({"--metric", "max=30", "--metric", "rmse=0.1"});
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_THAT(broken.output, HasSubstr(" and not at most 0.1: "));
+  EXPECT_THAT(broken.output, testing::Not(HasSubstr("max 3")));
   for (const char* wrong : {"flap=1", "flip", "flip=", "flip=x", "flip=-1", "=1", "flip=1x"})
     EXPECT_EQ(with({"--metric", wrong}).status, 2) << wrong;
   EXPECT_EQ(with({"--metric", "max=1", "--worst", "3"}).status, 2);
