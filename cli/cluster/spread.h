@@ -8,6 +8,9 @@
 
 namespace billow::cli {
 
+/// What a line of a shell is made of.
+using CommandWords = std::vector<std::string>;
+
 /// How a command's work is handed to others.
 struct SpreadOptions {
   bool commands = false;            // print a line for each piece

@@ -145,6 +145,12 @@ JudgedTest judged_test(const GoldenTests& tests, const GoldenTest& test, const G
     if (!fs::is_directory(judged.options.b, error))
       throw InputError(fmt::format("there is no folder {}; run what makes its pictures first",
                                    judged.options.b.lexically_normal().string()));
+    if (fs::is_empty(judged.options.b, error))
+      throw InputError(fmt::format("{} is empty: {}", judged.options.b.lexically_normal().string(),
+                                   std::holds_alternative<MadePictures>(test.pictures)
+                                       ? fmt::format("the command wrote no picture to {}; its log is {}",
+                                                     MadePictures::output_mark, folder.log_of(test.name).string())
+                                       : "run what makes its pictures first"));
     judged.pairs = pairs_of(judged.options);
   } catch (const InputError& fault) {
     judged.pairs = {{"", judged.options.a, judged.options.b, Verdict::unreadable, fault.what(), {}, {}}};

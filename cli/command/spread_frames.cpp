@@ -18,7 +18,6 @@ namespace billow::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 /// Frames, and who draws them of which states.
 struct FramesWork {
@@ -29,16 +28,16 @@ struct FramesWork {
   std::string asked;  // --frames, where not all are
 };
 
-Words scene_words(const FramesWork& work, const char* command) {
-  Words words = {command, work.options.scene.string()};
+CommandWords scene_words(const FramesWork& work, const char* command) {
+  CommandWords words = {command, work.options.scene.string()};
   add_overrides(work.options.overrides, words);
   if (work.spread.untrusted) words.push_back("--untrusted");
   if (work.options.durable) words.push_back("--durable");
   return words;
 }
 
-Words drawing_words(const FramesWork& work) {
-  Words words = scene_words(work, "render");
+CommandWords drawing_words(const FramesWork& work) {
+  CommandWords words = scene_words(work, "render");
   words.insert(words.end(), {"--from", work.states.string()});
   if (work.folder != work.states) words.insert(words.end(), {"-o", work.folder.string()});
   if (!work.spread.backend.empty()) words.insert(words.end(), {"--backend", work.spread.backend});
@@ -51,8 +50,8 @@ std::vector<long> unfinished_frames(const FrameRange& range, const fs::path& fol
   return missing_frames(range, find_frames(folder, scene, range).whole);
 }
 
-void print_commands(const FramesWork& work, const Words& lists) {
-  Words words = drawing_words(work);
+void print_commands(const FramesWork& work, const CommandWords& lists) {
+  CommandWords words = drawing_words(work);
   words.insert(words.begin(), this_program());
   words.push_back("--frames-only");
   if (work.options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(work.options.threads)});
@@ -64,7 +63,7 @@ std::string no_fault_of_divergence() {
 }
 
 SlurmJob simulating_job(const FramesWork& work) {
-  Words words = scene_words(work, "simulate");
+  CommandWords words = scene_words(work, "simulate");
   words.insert(words.end(), {"-o", work.states.string(), "--resume"});
   SlurmJob job;
   job.name = "simulate";
@@ -76,7 +75,7 @@ SlurmJob simulating_job(const FramesWork& work) {
   return job;
 }
 
-SlurmJob drawing_job(const FramesWork& work, const Words& lists) {
+SlurmJob drawing_job(const FramesWork& work, const CommandWords& lists) {
   SlurmJob job;
   job.name = "frames";
   job.about = "Each task draws its frames, where they are not there by then.";
@@ -90,7 +89,7 @@ SlurmJob drawing_job(const FramesWork& work, const Words& lists) {
 }
 
 SlurmJob collecting_job(const FramesWork& work, bool draws) {
-  Words words = drawing_words(work);
+  CommandWords words = drawing_words(work);
   if (!work.asked.empty()) words.insert(words.end(), {"--frames", work.asked});
   SlurmJob job;
   job.name = "collect";
@@ -105,7 +104,7 @@ SlurmJob collecting_job(const FramesWork& work, bool draws) {
   return job;
 }
 
-SlurmScript script_of(const FramesWork& work, const Words& lists) {
+SlurmScript script_of(const FramesWork& work, const CommandWords& lists) {
   SlurmScript script;
   script.title = work.options.scene.stem().string();
   script.output = work.folder;
@@ -137,7 +136,7 @@ int spread_frames_command(const RenderOptions& options, const SpreadOptions& spr
   if (range.count() < frame_count(scene)) work.asked = list_text(frames_of_range(range));
   // Two tasks for each that may run at a time: who is done early takes another.
   const auto tasks = static_cast<std::size_t>(2 * spread.array_limit);
-  const Words lists = lists_of(work.unfinished, pieces_a_task(work.unfinished.size(), spread.chunk, tasks));
+  const CommandWords lists = lists_of(work.unfinished, pieces_a_task(work.unfinished.size(), spread.chunk, tasks));
   if (spread.commands)
     print_commands(work, lists);
   else

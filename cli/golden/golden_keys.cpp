@@ -5,7 +5,7 @@
 
 namespace billow::cli::keys {
 
-const Section golden{"the tests", {{"billow_golden"}, {"baselines"}, {"tolerance"}, {"tests"}}};
+const Section golden{"the file of tests", {{"billow_golden"}, {"baselines"}, {"tolerance"}, {"tests"}}};
 
 const Section golden_scene{"a test of a scene",
                            {{"name"},

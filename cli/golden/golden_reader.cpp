@@ -52,11 +52,12 @@ std::vector<FrameSpan> read_frames(const Node& node) {
 
 // A list of words, none of them twice.
 template <class Enum>
-std::vector<Enum> read_words(const Node& node, std::string_view name, const std::vector<std::string_view>& known) {
+std::vector<Enum> read_words(const Node& node, std::string_view name, std::string_view one,
+                             const std::vector<std::string_view>& known) {
   std::vector<Enum> values;
   for (const NodePtr& item : read_list(node, name)) {
-    const std::string word = read_word(*item, name, known);
-    const Enum value = read_choice<Enum>(*item, name);
+    const std::string word = read_word(*item, one, known);
+    const Enum value = read_choice<Enum>(*item, one);
     if (std::find(values.begin(), values.end(), value) != values.end())
       fail_at(item->where, fmt::format("{} has '{}' twice", name, word));
     values.push_back(value);
@@ -72,11 +73,11 @@ RenderedPictures read_rendered(MapReader& map, const fs::path& folder) {
   pictures.frames_where = map.where("frames");
   if (const Node* frames = map.find("frames")) pictures.frames = read_frames(*frames);
   if (const Node* views = map.find("views"))
-    pictures.views = read_words<render::View>(*views, "views", map.key("views").choices);
+    pictures.views = read_words<render::View>(*views, "views", "view", map.key("views").choices);
   pictures.kinds_where = map.where("pictures");
   pictures.kinds = {RunPicture::frames};
   if (const Node* kinds = map.find("pictures"))
-    pictures.kinds = read_words<RunPicture>(*kinds, "pictures", map.key("pictures").choices);
+    pictures.kinds = read_words<RunPicture>(*kinds, "pictures", "picture", map.key("pictures").choices);
   return pictures;
 }
 
@@ -128,7 +129,13 @@ ImageTolerance read_tolerance_of(MapReader& map, const fs::path& folder, const I
   const Node* node = map.find("tolerance");
   if (!node) return usual;
   ImageTolerance tolerance = read_tolerance(*node, folder, usual, ReasonFor::what_is_not_stricter);
-  if (const Entry* mask = node->find("mask")) trusted(tolerance.mask, mask->value->where);
+  if (const Entry* mask = node->find("mask")) {
+    trusted(tolerance.mask, mask->value->where);
+    std::error_code error;
+    if (!fs::is_regular_file(tolerance.mask, error))
+      fail_at(mask->value->where,
+              fmt::format("there is no mask {}; white is what counts in it", tolerance.mask.string()));
+  }
   return tolerance;
 }
 

@@ -13,7 +13,6 @@
 #include "cli/run/contact_sheet.h"
 #include "cli/run/render_scene.h"
 #include "cli/run/watched_scene.h"
-#include "cli/run/whole_frames.h"
 #include "cli/scene/scene_parts.h"
 #include "cli/scene/simulation.h"
 #include "cli/text/command_text.h"
@@ -38,9 +37,9 @@ struct TestedFrames {
 
 TestedFrames frames_of(const RenderedPictures& test, const Scene& scene) {
   TimedFrames named;
-  for (const long frame : frames_of_range(located(test.frames_where, [&] {
-         return test.frames.empty() ? FrameRange{1, frame_count(scene)} : frames_in(test.frames, frame_count(scene));
-       })))
+  const std::vector<FrameSpan> spans = test.frames.empty() ? std::vector<FrameSpan>{FrameSpan{}} : test.frames;
+  for (const long frame : located(
+           test.frames_where, [&] { return numbers_in(spans, frame_count(scene), "frames", "the scene has frames"); }))
     named.emplace_back(frame, 0.0);
   TestedFrames frames;
   if (compares(test, RunPicture::frames))

@@ -12,17 +12,15 @@ namespace billow::cli {
 
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words study_words(const StudyPlan& plan, const SpreadOptions& options) {
-  Words words = {"study", plan.study.file.string(), "-o", plan.folder.string()};
+CommandWords study_words(const StudyPlan& plan, const SpreadOptions& options) {
+  CommandWords words = {"study", plan.study.file.string(), "-o", plan.folder.string()};
   if (plan.untrusted) words.push_back("--untrusted");
   if (!options.backend.empty()) words.insert(words.end(), {"--backend", options.backend});
   return words;
 }
 
-void print_commands(const StudyPlan& plan, const Words& lists, const SpreadOptions& options) {
-  Words words = study_words(plan, options);
+void print_commands(const StudyPlan& plan, const CommandWords& lists, const SpreadOptions& options) {
+  CommandWords words = study_words(plan, options);
   words.insert(words.begin(), this_program());
   words.insert(words.end(), {"--jobs", "1"});
   if (plan.threads > 0) words.insert(words.end(), {"--threads", std::to_string(plan.threads)});
@@ -30,7 +28,7 @@ void print_commands(const StudyPlan& plan, const Words& lists, const SpreadOptio
   for (const std::string& list : lists) print_text(fmt::format("{} --runs {}\n", shell_line(words), list));
 }
 
-SlurmJob runs_job(const StudyPlan& plan, const Words& lists, const SpreadOptions& options) {
+SlurmJob runs_job(const StudyPlan& plan, const CommandWords& lists, const SpreadOptions& options) {
   SlurmJob job;
   job.name = "runs";
   job.about = "Each task does its runs, where they are unfinished then, one after the other.";
@@ -52,7 +50,8 @@ SlurmJob collecting_job(const StudyPlan& plan, const std::string& after, const S
   return job;
 }
 
-SlurmScript script_of(const StudyPlan& plan, std::size_t unfinished, const Words& lists, const SpreadOptions& options) {
+SlurmScript script_of(const StudyPlan& plan, std::size_t unfinished, const CommandWords& lists,
+                      const SpreadOptions& options) {
   SlurmScript script;
   script.title = plan.study.file.stem().string();
   script.output = plan.folder;

@@ -3,12 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
-#include "render/image/exr.h"
-#include "render/image/png.h"
-#include "tests/support/mesh_files.h"
-#include "tests/support/tool.h"
+#include "tests/support/comparing.h"
 
 namespace billow {
 namespace {
@@ -18,42 +14,7 @@ using test::ToolResult;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-class CompareCommand : public testing::Test {
- protected:
-  // Dark on the left, light on the right.
-  static Image picture(int width = 20, int height = 10, int channels = 3) {
-    Image image(width, height, channels);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        for (int c = 0; c < channels; ++c) image.row(y)[x * channels + c] = x < width / 2 ? 40 : 200;
-    return image;
-  }
-
-  static Image changed(Image image, int x, int y, int by) {
-    for (int c = 0; c < 3; ++c)
-      image.row(y)[x * image.channels + c] = static_cast<std::uint8_t>(image.row(y)[x * image.channels + c] + by);
-    return image;
-  }
-
-  void write(const std::string& name, const Image& image) const {
-    std::filesystem::create_directories((folder_.path() / name).parent_path());
-    render::write_png(folder_.path() / name, image);
-  }
-
-  ToolResult compare(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "compare");
-    return test::run_tool(arguments, folder_.path());
-  }
-
-  // The one row of two images that differ.
-  std::string why(const Image& a, const Image& b) const {
-    write("a.png", a);
-    write("b.png", b);
-    return Json::parse(compare({"a.png", "b.png", "--json"}).output)["images"][0]["why"];
-  }
-
-  test::TemporaryFolder folder_;
-};
+class CompareCommand : public test::Comparing {};
 
 TEST_F(CompareCommand, JudgesEveryPairOfTwoFolders) {
   write("a/1 size.png", picture(3, 3));
@@ -250,66 +211,6 @@ TEST_F(CompareCommand, TakesAnyVersionOfABaseline) {
   EXPECT_EQ(Json::parse(compare({"a", "b", "--json"}).output)["images"].size(), 3u);  // and 1.2.png is missing in b
 }
 
-TEST_F(CompareCommand, AcceptsWhatDiffersOrIsNewAndNothingElse) {
-  unsetenv("CI");
-  const Image other = changed(picture(), 3, 5, 60);
-  write("a/differs.png", picture());
-  write("b/differs.png", other);
-  write("a/near.png", picture());
-  write("b/near.png", changed(picture(), 3, 5, 1));
-  write("b/below/new.png", other);
-  write("a/gone.png", picture());
-  write("a/broken.png", picture());
-  folder_.write("b/broken.png", "no image");
-  const std::string near = test::read_text(folder_.path() / "a/near.png");
-  EXPECT_EQ(compare({"a", "b", "--accept-only", "differ.png"}).errors,
-            "--accept-only: there is no image 'differ.png'; did you mean 'differs.png'?\n");
-  EXPECT_EQ(compare({"a", "b", "--accept-only", "gone.png"}).status, 4);
-  EXPECT_EQ(compare({"a", "b", "--accept-only", ""}).status, 4);  // a variable that is not set
-  EXPECT_EQ(compare({"a", "b", "--accept-only", "broken.png"}).errors,
-            "--accept-only: b/broken.png: is not a PNG image\n");
-  EXPECT_THAT(compare({"a", "b", "--accept-only", "below/new.png"}).output, HasSubstr("accepted below/new.png\n"));
-  EXPECT_EQ(render::read_png(folder_.path() / "a/below/new.png").pixels, other.pixels);
-  EXPECT_EQ(render::read_png(folder_.path() / "a/differs.png").pixels, picture().pixels);
-
-  const ToolResult all = compare({"a", "b", "--accept"});
-  EXPECT_EQ(all.status, 3);  // one is gone, one broken
-  EXPECT_THAT(all.output, HasSubstr("accepted differs.png\n"));
-  EXPECT_EQ(render::read_png(folder_.path() / "a/differs.png").pixels, other.pixels);
-  EXPECT_EQ(test::read_text(folder_.path() / "a/near.png"), near);
-  EXPECT_EQ(render::read_png(folder_.path() / "a/broken.png").pixels, picture().pixels);
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a/gone.png"));
-}
-
-// What is to be mended then is the tolerance.
-TEST_F(CompareCommand, AcceptsNothingThatCouldNotBeJudged) {
-  unsetenv("CI");
-  write("a/1.png", picture());
-  write("b/1.png", changed(picture(), 3, 5, 100));
-  folder_.write("a/1.tolerance.yaml", "reason: a lamp\nmask: none.png\n");
-  const std::string before = test::read_text(folder_.path() / "a/1.png");
-  const ToolResult all = compare({"a", "b", "--accept"});
-  EXPECT_NE(all.status, 0);
-  EXPECT_THAT(all.output, testing::Not(HasSubstr("accepted")));
-  const ToolResult one = compare({"a", "b", "--accept-only", "1.png"});
-  EXPECT_EQ(one.status, 4);
-  EXPECT_THAT(one.errors, HasSubstr("--accept-only: 1.png: "));
-  EXPECT_EQ(test::read_text(folder_.path() / "a/1.png"), before);
-}
-
-TEST_F(CompareCommand, AcceptsNothingWhereNobodyLooks) {
-  write("a.png", picture());
-  write("b.png", changed(picture(), 3, 5, 60));
-  setenv("CI", "true", 1);
-  const ToolResult result = compare({"a.png", "b.png", "--accept"});
-  unsetenv("CI");
-  EXPECT_EQ(result.status, 4);
-  EXPECT_THAT(result.errors, HasSubstr("--accept: CI is set in the environment"));
-  EXPECT_EQ(render::read_png(folder_.path() / "a.png").pixels, picture().pixels);
-  EXPECT_EQ(compare({"a.png", "b.png", "--accept"}).status, 0);
-  EXPECT_EQ(compare({"a.png", "b.png"}).status, 0);
-}
-
 TEST_F(CompareCommand, WritesWhatBuildServersRead) {
   write("a/1 & 2.png", picture());
   write("b/1 & 2.png", picture());
@@ -328,28 +229,6 @@ TEST_F(CompareCommand, WritesWhatBuildServersRead) {
             "    <failure message=\"missing in a\"/>\n"
             "  </testcase>\n"
             "</testsuite>\n");
-}
-
-TEST_F(CompareCommand, AcceptsOnlyWholeImagesAndThroughNoLink) {
-  unsetenv("CI");
-  folder_.write("a/damaged.png", "no image");
-  write("b/damaged.png", picture());
-  folder_.write("b/new.png", "no image");
-  std::filesystem::create_directories(folder_.path() / "a");
-  std::filesystem::create_directories(folder_.path() / "elsewhere");
-  std::filesystem::create_directory_symlink("../elsewhere", folder_.path() / "a/sub");
-  write("b/sub/x.png", picture());
-  const ToolResult result = compare({"a", "b", "--accept"});
-  EXPECT_EQ(result.status, 6);
-  EXPECT_THAT(result.errors, HasSubstr("is a link, and nothing is written through it"));
-  EXPECT_THAT(result.errors, HasSubstr("; accepted until then: damaged.png\n"));
-  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "elsewhere"));
-  EXPECT_EQ(render::read_png(folder_.path() / "a/damaged.png").pixels, picture().pixels);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a/new.png"));
-
-  const ToolResult first = compare({"nothing yet", "b/sub", "--accept"});
-  EXPECT_EQ(first.status, 0) << first.errors;
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "nothing yet/x.png"));
 }
 
 TEST_F(CompareCommand, SaysWhatItDoesNotLookInto) {
@@ -378,38 +257,6 @@ TEST_F(CompareCommand, TakesAMaskBesideABaselineForNoPicture) {
   EXPECT_EQ(result.status, 0) << result.output;
 }
 
-// Grey of 16 bits, a ramp.
-render::Image16 ramp(int change_at = -1, int by = 1) {
-  render::Image16 image{20, 10, {}};
-  for (int k = 0; k < 200; ++k) image.pixels.push_back(static_cast<std::uint16_t>(257 * k + (k == change_at ? by : 0)));
-  return image;
-}
-
-TEST_F(CompareCommand, FindsADifferenceOfOneIn65535) {
-  render::write_png(folder_.path() / "a.png", ramp());
-  render::write_png(folder_.path() / "b.png", ramp(47));
-  EXPECT_EQ(compare({"a.png", "b.png"}).status, 0);
-  const ToolResult strict = compare({"a.png", "b.png", "--channel", "0", "--pixels", "0"});
-  EXPECT_EQ(strict.status, 3);
-  EXPECT_THAT(strict.output, HasSubstr("1 px over 0/255 (0.5 %), worst 0.003891 (1/65535) at (7, 2)"));
-  EXPECT_EQ(compare({"a.png", "b.png", "--channel", "0.002%", "--pixels", "0"}).status, 0);
-  EXPECT_EQ(compare({"a.png", "b.png", "--channel", "0.001%", "--pixels", "0"}).status, 3);
-  const Json json = Json::parse(compare({"a.png", "b.png", "--json"}).output)["images"][0];
-  EXPECT_EQ(json["bits"], 16);
-  EXPECT_EQ(json["worst_values"], (Json{47 * 257, 47 * 257 + 1}));
-}
-
-TEST_F(CompareCommand, SaysThatOneOfTwoHasFewerBits) {
-  render::write_png(folder_.path() / "a.png", ramp(47, 100));
-  Image eight(20, 10);
-  for (int k = 0; k < 600; ++k) eight.pixels[k] = static_cast<std::uint8_t>(k / 3);
-  write("b.png", eight);
-  const ToolResult result = compare({"a.png", "b.png"});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.output,
-              HasSubstr("same: no pixel over 3/255, worst 0.3891 (100/65535) at (7, 2), 16 against 8 bits"));
-}
-
 TEST_F(CompareCommand, AllowsEdgesThatAreAsideWhereAskedTo) {
   Image moved = picture();
   for (int y = 0; y < 10; ++y)
@@ -425,70 +272,6 @@ TEST_F(CompareCommand, AllowsEdgesThatAreAsideWhereAskedTo) {
   EXPECT_EQ(compare({"a", "b"}).status, 0);
   folder_.write("a/1.tolerance.yaml", "reason: r\nedge: 5\n");
   EXPECT_THAT(compare({"a", "b"}).output, HasSubstr("1.tolerance.yaml:2:7: "));
-}
-
-class CompareExr : public CompareCommand {
- protected:
-  static render::DataImage numbers(std::initializer_list<const char*> names, int change_at = -1, float by = 0.5f) {
-    render::DataImage image{20, 10, {}};
-    for (const char* name : names) {
-      image.channels.push_back({name, std::vector<float>(200)});
-      for (int k = 0; k < 200; ++k) image.channels.back().value[k] = 0.001f * k + (k == change_at ? by : 0.0f);
-    }
-    return image;
-  }
-  void write(const std::string& name, const render::DataImage& image) const {
-    std::filesystem::create_directories((folder_.path() / name).parent_path());
-    render::write_exr(folder_.path() / name, image);
-  }
-};
-
-TEST_F(CompareExr, SaysWhatDiffersInItsOwnUnits) {
-  write("a/v.exr", numbers({"Z", "velocity.X"}));
-  write("b/v.exr", numbers({"Z", "velocity.X"}));
-  EXPECT_EQ(compare({"a", "b"}).status, 0);
-  render::DataImage other = numbers({"Z", "velocity.X"});
-  other.channels[1].value[47] += 0.5f;
-  write("b/v.exr", other);
-  const ToolResult result = compare({"a", "b"});
-  EXPECT_EQ(result.status, 3);
-  EXPECT_THAT(
-      result.output,
-      HasSubstr("1 px over 0.0118 (0.5 %), worst 0.5 in velocity.X at (7, 2): 0.047 and 0.547, none at an edge"));
-  const Json json = Json::parse(compare({"a", "b", "--json"}).output)["images"][0];
-  EXPECT_EQ(json["bits"], "float");
-  EXPECT_EQ(json["channels"]["Z"]["over"], 0);
-  EXPECT_EQ(json["channels"]["velocity.X"]["over"], 1);
-  EXPECT_TRUE(json["ssim"].is_null());
-  EXPECT_EQ(compare({"a", "b", "--metric", "max=0.51"}).status, 0);
-  EXPECT_EQ(compare({"a", "b", "--metric", "max=0.49"}).status, 3);
-  EXPECT_EQ(compare({"a", "b", "--channel", "51%", "--worst", "51%", "--pixels", "0"}).status, 0);
-  EXPECT_THAT(compare({"a", "b", "--metric", "flip=1"}).output,
-              HasSubstr("flip is of colours, and the images have no channels R, G and B; judge them by max or rmse"));
-}
-
-TEST_F(CompareExr, JudgesColoursAsTheyAreSeen) {
-  write("a.exr", numbers({"R", "G", "B"}));
-  write("b.exr", numbers({"R", "G", "B", "A"}));
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).status, 3);
-  EXPECT_EQ(compare({"a.exr", "b.exr", "--ignore-alpha"}).status, 0);
-  EXPECT_EQ(compare({"a.exr", "b.exr", "--metric", "ssim=0.9999", "--metric", "flip=0.0001"}).status, 0);
-  EXPECT_EQ(compare({"a.exr", "b.exr", "--diff", "d.png"}).status, 3);
-  EXPECT_EQ(render::read_png(folder_.path() / "d.png").row(0)[0], 255);  // alpha is 0, and 1
-}
-
-TEST_F(CompareExr, TellsWhatCannotBeCompared) {
-  write("a/1.exr", numbers({"R", "G", "B"}));
-  write("b/1.exr", numbers({"R", "G", "B", "N.X", "N.Y"}));
-  write("a/2.exr", numbers({"Z"}));
-  folder_.write("b/2.exr", test::read_text(folder_.path() / "a/2.exr").substr(0, 400));
-  folder_.write("a/3.exr", "no image");
-  folder_.write("b/3.exr", "no image");
-  const ToolResult result = compare({"a", "b"});
-  EXPECT_EQ(result.status, 3);
-  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: channels N.X, N.Y only in b/1.exr"));
-  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/2.exr: "));
-  EXPECT_THAT(result.output, HasSubstr("UNREADABLE: a/3.exr: is no OpenEXR image"));
 }
 
 TEST_F(CompareCommand, SaysWhereASequenceBeginsToDiffer) {

@@ -160,7 +160,7 @@ TEST_F(GoldenCommand, GoesOnWhenASceneFails) {
   EXPECT_THAT(names(), ElementsAre("bad", "drape/velocity/frame_0003.png", "late", "wild", "plain"));
   EXPECT_EQ(why(0), "no pictures: bad.yaml:2:36: unknown key 'mas' in cloth; did you mean 'mass'?");
   EXPECT_EQ(why(1), "accepted");
-  EXPECT_THAT(why(2), HasSubstr("t.yaml:5:45: --frames 6: the scene has frames 1 to 5"));
+  EXPECT_THAT(why(2), HasSubstr("t.yaml:5:45: frames 6: the scene has frames 1 to 5"));
   EXPECT_THAT(why(3), HasSubstr("no pictures: "));
   EXPECT_THAT(why(4), HasSubstr("t.yaml:7:68: the scene makes no strip; give it a 'strip', like set: {strip: {}}"));
   EXPECT_THAT(test::read_text(folder_.path() / "results.xml"), HasSubstr("failures=\"1\" errors=\"4\""));
@@ -246,7 +246,8 @@ TEST_F(GoldenCommand, RunsCommandsWhereTheUserAllowsIt) {
       "  - {name: good, command: [cp, source.png, '{output}/a $(touch ran).png']}\n"
       "  - {name: bad, command: [sh, -c, 'echo it broke >&2; exit 7', '{output}']}\n"
       "  - {name: slow, command: [sh, -c, 'sleep 50 & wait', '{output}'], timeout: 1}\n"
-      "  - {name: unknown, command: [no-such-renderer, '{output}']}\n");
+      "  - {name: unknown, command: [no-such-renderer, '{output}']}\n"
+      "  - {name: idle, command: [true, '{output}']}\n");
   EXPECT_EQ(golden().status, 3);
   EXPECT_THAT(why(0), HasSubstr("no pictures: it is a command, and none is run without --allow-commands"));
   EXPECT_EQ(golden({"--allow-commands", "--untrusted"}).status, 2);
@@ -256,6 +257,8 @@ TEST_F(GoldenCommand, RunsCommandsWhereTheUserAllowsIt) {
   EXPECT_EQ(why(1), "no pictures: exit status 7: it broke; its log is out/t/runs/bad/log.txt");
   EXPECT_EQ(why(2), "no pictures: its command took longer than 1 s; give it a longer 'timeout'");
   EXPECT_THAT(why(3), HasSubstr("cannot start no-such-renderer: No such file or directory; is it installed?"));
+  EXPECT_EQ(why(4),
+            "out/t/actual/idle is empty: the command wrote no picture to {output}; its log is out/t/runs/idle/log.txt");
 }
 
 TEST_F(GoldenCommand, EndsWithItsTestsAndWhatTheyStarted) {

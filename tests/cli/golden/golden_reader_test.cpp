@@ -14,7 +14,10 @@ using testing::ElementsAre;
 
 class GoldenReader : public testing::Test {
  protected:
-  GoldenReader() { folder_.scene(test::base_scene); }
+  GoldenReader() {
+    folder_.scene(test::base_scene);
+    for (const char* mask : {"mask.png", "m.png"}) folder_.write(mask, "");
+  }
 
   cli::GoldenTests read(const std::string& text) const { return cli::read_golden_tests(folder_.write("t.yaml", text)); }
 
@@ -94,14 +97,19 @@ TEST_F(GoldenReader, AsksForAReasonWhereMoreIsLetThrough) {
             "");
 }
 
+TEST_F(GoldenReader, LooksForMasksBeforeAnythingIsRendered) {
+  EXPECT_THAT(test_error("name: a, scene: scene.yaml, tolerance: {reason: r, mask: no.png}"),
+              testing::StartsWith("t.yaml:3:63: there is no mask "));
+}
+
 TEST_F(GoldenReader, SaysWhatIsWrongWhereAndWhatToDo) {
   EXPECT_EQ(error("tests: []\n"),
-            "t.yaml:1:1: the tests needs the key 'billow_golden'; begin it with 'billow_golden: 1'");
+            "t.yaml:1:1: the file of tests needs the key 'billow_golden'; begin it with 'billow_golden: 1'");
   EXPECT_EQ(
       error("billow_golden: 2\ntests: []\n"),
       "t.yaml:1:16: billow_golden, the version of the format of tests, must be 1: this billow reads version 1 only");
   EXPECT_EQ(error("billow_golden: 1\ntest: []\n"),
-            "t.yaml:2:1: unknown key 'test' in the tests; did you mean 'tests'?");
+            "t.yaml:2:1: unknown key 'test' in the file of tests; did you mean 'tests'?");
   EXPECT_EQ(error("billow_golden: 1\ntests: []\n"),
             "t.yaml:2:8: tests is empty; add at least one, like {name: drape, scene: drape.yaml}");
   EXPECT_EQ(error(file_of("  - drape\n")), "t.yaml:3:5: a test must be a map, like {name: drape, scene: drape.yaml}");
@@ -129,7 +137,7 @@ TEST_F(GoldenReader, SaysWhatIsWrongWhereAndWhatToDo) {
   EXPECT_EQ(test_error("name: a, scene: scene.yaml, frames: []"),
             "t.yaml:3:42: frames is empty; leave the key out for all frames");
   EXPECT_EQ(test_error("name: a, scene: scene.yaml, views: [velocty]"),
-            "t.yaml:3:42: unknown views 'velocty'; did you mean 'velocity'?");
+            "t.yaml:3:42: unknown view 'velocty'; did you mean 'velocity'?");
   EXPECT_EQ(test_error("name: a, scene: scene.yaml, pictures: [strip, strip]"),
             "t.yaml:3:52: pictures has 'strip' twice");
   EXPECT_EQ(test_error("name: a, scene: scene.yaml, pictures: []"),
