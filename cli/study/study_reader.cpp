@@ -167,6 +167,17 @@ std::vector<std::string> read_views(MapReader& map) {
   return views;
 }
 
+// What no run would have, found before all of them are done.
+void check_is_measured(const Measures& measures, const ResultColumn& column, const std::string& where) {
+  const auto lacks = [&](bool there, std::string_view key) {
+    if (!there)
+      fail_at(where, fmt::format("'{}' is not measured; add 'measure: {{{}}}' to the study", column.name, key));
+  };
+  if (column.name.starts_with("measured")) lacks(measures.measured, "measured: true");
+  if (column.group == ColumnGroup::cost) lacks(measures.repeats > 0, "repeats: 1");
+  if (column.group == ColumnGroup::error) lacks(measures.error.until > 0.0, "error: {until: …, set: {…}}");
+}
+
 std::string read_column(const Study& study, const Node& node, std::string_view key) {
   const std::string name = read_text(node, key);
   std::vector<std::string_view> known;
@@ -174,6 +185,10 @@ std::string read_column(const Study& study, const Node& node, std::string_view k
   for (const Axis& axis : study.axes) known.push_back(axis.name);
   if (std::find(known.begin(), known.end(), name) == known.end())
     fail_at(node.where, fmt::format("there is no column '{}'{}", name, suggestion(name, known, "columns are")));
+  const bool is_axis =
+      std::any_of(study.axes.begin(), study.axes.end(), [&](const Axis& axis) { return axis.name == name; });
+  if (const ResultColumn* column = find_column(name); column && !is_axis)
+    check_is_measured(study.measures, *column, node.where);
   return name;
 }
 

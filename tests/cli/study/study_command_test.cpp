@@ -250,16 +250,16 @@ set: {duration: 0.2}
 axes:
   - {name: lambda, key: solver.filter.lambda, values: [1, 2]}
   - {name: form, key: solver.filter.form, values: [symmetric, conserving]}
-measure: {render: false}
+measure: {render: false, repeats: 1}
 pictures:
   - {name: several, kind: plot, x: lambda, y: [paper, certified], note: Once.}
   - {name: one, kind: plot, x: form, y: certified_ratio}
-  - {name: none, kind: plot, x: lambda, y: error}
+  - {name: none, kind: plot, x: lambda, y: iterations_per_solve}
 )");
   const ToolResult result = study();
   EXPECT_NE(result.errors.find(
                 "'none' is missing: there is no point to plot. Not shown: λ = 1, symmetric; λ = 1, conserving; λ = 2, "
-                "symmetric and 1 more have no error.\n"),
+                "symmetric and 1 more have no iterations_per_solve.\n"),
             std::string::npos)
       << result.errors;
   const std::string several = test::read_text(made("several.svg")), one = test::read_text(made("one.svg"));

@@ -87,6 +87,12 @@ TEST_F(StudyReader, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error("kind: plot", "kind: pie"),
             "study.yaml:15:26: unknown kind 'pie'; known are: strips, spectra, frames, plot, spectrum_curves");
   EXPECT_EQ(error("x: lambda", "x: lamda"), "study.yaml:15:35: there is no column 'lamda'; did you mean 'lambda'?");
+  EXPECT_EQ(error("y: [paper_ratio, step]", "y: measured_ratio"),
+            "study.yaml:15:46: 'measured_ratio' is not measured; add 'measure: {measured: true}' to the study");
+  EXPECT_EQ(error("y: [paper_ratio, step]", "y: [step, seconds]"),
+            "study.yaml:15:53: 'seconds' is not measured; add 'measure: {repeats: 1}' to the study");
+  EXPECT_EQ(error("x: lambda", "x: energy"),
+            "study.yaml:15:35: 'energy' is not measured; add 'measure: {error: {until: …, set: {…}}}' to the study");
   EXPECT_EQ(error("by: [solver]", "by: [solvr]"), "study.yaml:15:72: there is no axis 'solvr'; did you mean 'solver'?");
   EXPECT_EQ(error("where: {lambda: [0.5, 2]}", "where: {lambda: 3}"),
             "study.yaml:15:97: the axis 'lambda' has no value '3'; it has: 0.5, 1, 2");
