@@ -240,6 +240,14 @@ int list_tests(const Chosen& chosen) {
   return exit_done;
 }
 
+// Nothing has been compared by then.
+int stop(const GoldenTests& tests, const GoldenFolder& folder) {
+  const Json record = {{"same", false}, {"tests", tests.file.string()}, {"interrupted", true}};
+  write_file_atomically(folder.record(), json_text(record, 2) + "\n");
+  say_line("stopped before pictures were compared; the same command begins again");
+  return 128 + interrupted_by();
+}
+
 GoldenWork work_of(const GoldenOptions& options) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return {options.jobs > 0 ? options.jobs : cores, options.may_run_programs, options.backend, options.untrusted};
@@ -262,7 +270,7 @@ int golden_command(const GoldenOptions& options) {
   const FolderLock lock(folder.path());
   if (chosen.list.size() == tests.tests.size()) folder.remove_pictures();
   const auto failures = make_pictures(tests, chosen.list, folder, work_of(options));
-  if (interrupted_by() != 0) return 128 + interrupted_by();
+  if (interrupted_by() != 0) return stop(tests, folder);
   std::vector<JudgedTest> judged;
   for (const GoldenTest* test : chosen.list) {
     judged.push_back(judged_test(tests, *test, folder, failures));

@@ -266,6 +266,8 @@ TEST_F(GoldenCommand, EndsWithItsTestsAndWhatTheyStarted) {
   const ToolResult result =
       test::run_tool({"golden", "t.yaml", "--allow-commands"}, folder_.path(), 0.5, folder_.path() / "pid");
   EXPECT_EQ(result.status, 130);
+  EXPECT_THAT(result.errors, HasSubstr("stopped before pictures were compared"));
+  EXPECT_EQ(record()["interrupted"], true);
   std::istringstream pids(test::read_text(folder_.path() / "pid"));
   int count = 0;
   for (std::string pid; pids >> pid; ++count) EXPECT_TRUE(ends(pid)) << pid;
