@@ -17,10 +17,13 @@ CoarseCorrection::CoarseCorrection(const Structure& structure, const Body& body,
       nodes_(4 * static_cast<std::size_t>(level_.nodes())),
       packed_(3 * level_.nodes()) {}
 
-void CoarseCorrection::set(const StiffnessMatrix& matrix) { factor_.compute(sums_.sum(matrix)); }
+void CoarseCorrection::set(const StiffnessMatrix& matrix) {
+  if (!factor_) factor_.emplace();
+  factor_->compute(sums_.sum(matrix));
+}
 
 void CoarseCorrection::add(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y) {
-  if (factor_.info() != Eigen::Success) return;
+  if (!factor_ || factor_->info() != Eigen::Success) return;
   const LevelParticles body{level_, first_particle_, particles_};
   const FilterColumns from{{x.col(0).data(), x.col(1).data(), x.col(2).data()}, {}};
   particles_to_nodes(body, from, free_, fine_, nodes_.data(), scratch_);
@@ -32,7 +35,7 @@ void CoarseCorrection::solve_at_nodes() {
   const int count = level_.nodes();
   Eigen::Map<Eigen::Matrix4Xd, Eigen::Aligned64> rows(nodes_.data(), 4, count);
   packed_.reshaped(3, count) = rows.topRows<3>();
-  factor_.solveInPlace(packed_);
+  factor_->solveInPlace(packed_);
   rows.topRows<3>() = packed_.reshaped(3, count);
 }
 

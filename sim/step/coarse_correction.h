@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <optional>
 
 #include "base/aligned.h"
 #include "sim/levels/level_hierarchy.h"
@@ -16,7 +17,7 @@ class CoarseCorrection {
  public:
   CoarseCorrection(const Structure& structure, const Body& body, NodeLevel level);
   void set(const StiffnessMatrix& matrix);
-  /// y (n x 3) += the correction times x (n x 3).
+  /// y (n x 3) += the correction times x (n x 3), once a matrix has been set.
   void add(const Eigen::MatrixX3d& x, Eigen::MatrixX3d& y);
 
  private:
@@ -25,9 +26,9 @@ class CoarseCorrection {
   int first_particle_, particles_;
   NodeLevel level_;
   CoarseMatrix sums_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd free_;                // of the body's particles: 1, pinned ones 0
-  AlignedVector<double> fine_, nodes_;  // rows of x, y, z and a number that means nothing
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> factor_;  // none before the first matrix
+  Eigen::VectorXd free_;                               // of the body's particles: 1, pinned ones 0
+  AlignedVector<double> fine_, nodes_;                 // rows of x, y, z and a number that means nothing
   Eigen::VectorXd packed_;
   PassScratch scratch_;
 };
