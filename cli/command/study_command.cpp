@@ -201,7 +201,7 @@ int study_command(const StudyOptions& options) {
   const std::vector<long> numbers = chosen_runs(plan, options);
   // A fault in the last run's scene is found before the first one starts.
   for (const long number : numbers) read_hash(plan, static_cast<int>(number));
-  check_times(plan);
+  check_pictures(plan);
   if (options.list) return list_runs(plan);
   if (options.spread.any()) return spread(plan, numbers, options.spread);
   if (!options.collect && plan.study.measures.render) render::GlContext(plan.backend);  // before every run fails by it

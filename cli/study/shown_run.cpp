@@ -62,12 +62,6 @@ std::string unfinished_runs(const std::vector<ShownRun>& runs) {
   return fmt::format("{}{}", fmt::join(parts, ", "), runs.size() > parts.size() ? ", …" : "");
 }
 
-void require_output(const ShownRun& run, std::string_view key) {
-  if (("\n" + run.result->scene).find(fmt::format("\n{}: none\n", key)) == std::string::npos) return;
-  throw InputError(fmt::format("it needs a {0}, and the scene of run {1} has none; give it one with '{0}: {{}}'", key,
-                               run.run->number));
-}
-
 void require_file(const fs::path& file) {
   const fs::path film = file.parent_path();
   std::error_code error;

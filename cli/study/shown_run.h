@@ -51,9 +51,6 @@ auto of_run(const ShownRun& run, const std::filesystem::path& file, const Read& 
   }
 }
 
-/// Throws InputError where the run's scene has no such output, as doing the run again would not help.
-void require_output(const ShownRun& run, std::string_view key);
-
 /// Throws InputError that says whether the file alone is missing, or all of the film.
 void require_file(const std::filesystem::path& file);
 

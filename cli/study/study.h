@@ -54,7 +54,8 @@ Words<PictureKind> words(PictureKind);
 /// One picture made of the finished runs.
 struct PictureSpec {
   PictureKind kind = PictureKind::plot;
-  std::string name;  // of its files
+  std::string name;   // of its files
+  std::string place;  // in the study file
   std::string title, note;
   std::vector<Selection> where;
   std::optional<int> rows;               // axis: one strip, one column of spectra, or one row of frames per value

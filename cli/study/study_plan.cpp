@@ -28,33 +28,66 @@ StudyPlan make_plan(const std::filesystem::path& study, const std::filesystem::p
   if (plan.folder.empty()) plan.folder = usual_folder(study);
   plan.runs = runs_of(plan.study);
   plan.hash.resize(plan.runs.size());
-  plan.duration.resize(plan.runs.size());
+  plan.offer.resize(plan.runs.size());
   return plan;
 }
 
 void read_hash(StudyPlan& plan, int number) {
   const Scene scene = read_scene(plan.study.scene, overrides_of(plan.study, plan.run(number)));
   plan.hash[static_cast<std::size_t>(number) - 1] = run_hash(plan.study, scene);
-  plan.duration[static_cast<std::size_t>(number) - 1] = scene.duration;
+  RunOffer offer{scene.duration, scene.strip.has_value(), scene.spectrum.has_value(), {}};
+  for (const render::View view : scene.render.views) offer.views.emplace_back(render::name(view));
+  plan.offer[static_cast<std::size_t>(number) - 1] = std::move(offer);
 }
 
-void check_times(const StudyPlan& plan) {
+namespace {
+
+// What a picture does not find in the scene of one of its runs, and what to do; empty where it finds all.
+std::string lacking(const PictureSpec& picture, const RunOffer& offer) {
+  const bool is_strip = picture.kind == PictureKind::strips;
+  const bool is_spectrum = picture.kind == PictureKind::spectra || picture.kind == PictureKind::spectrum_curves;
+  const std::string needed = is_strip && !offer.strip ? "strip" : is_spectrum && !offer.spectrum ? "spectrum" : "";
+  if (!needed.empty()) return fmt::format("no {0}; give it one with '{0}: {{}}'", needed);
+  if (picture.times.empty()) return "";
+  for (const std::string& view : picture.views)
+    if (std::find(offer.views.begin(), offer.views.end(), view) == offer.views.end())
+      return fmt::format("no view '{}'; add it to render.views", view);
+  return "";
+}
+
+void check_offers(const StudyPlan& plan, const PictureSpec& picture) {
+  for (const StudyRun& run : plan.runs) {
+    const std::optional<RunOffer>& offer = plan.offer[static_cast<std::size_t>(run.number) - 1];
+    if (!offer || !selects(picture, run)) continue;
+    if (const std::string lacks = lacking(picture, *offer); !lacks.empty())
+      throw InputError(fmt::format("{}: for the picture '{}' the scene of run {} has {}", picture.place, picture.name,
+                                   run.number, lacks));
+  }
+}
+
+void check_times(const StudyPlan& plan, const PictureSpec& picture) {
   constexpr double rounding = 1e-9;
+  double longest = 0.0;
+  for (const StudyRun& run : plan.runs) {
+    if (!selects(picture, run)) continue;
+    const std::optional<RunOffer>& offer = plan.offer[static_cast<std::size_t>(run.number) - 1];
+    if (!offer) return;
+    longest = std::max(longest, offer->duration);
+  }
+  for (std::size_t k = 0; longest > 0.0 && k < picture.times.size(); ++k)
+    if (picture.times[k] > longest * (1.0 + rounding))
+      throw InputError(
+          fmt::format("{}: the picture '{}' wants a frame at {} s, and its runs end at {} s; give earlier times, or a "
+                      "longer duration",
+                      picture.times_where[k], picture.name, picture.times[k], longest));
+}
+
+}  // namespace
+
+void check_pictures(const StudyPlan& plan) {
   for (const PictureSpec& picture : plan.study.pictures) {
-    double longest = 0.0;
-    bool all_read = true;
-    for (const StudyRun& run : plan.runs) {
-      if (!selects(picture, run)) continue;
-      const double duration = plan.duration[static_cast<std::size_t>(run.number) - 1];
-      all_read = all_read && duration > 0.0;
-      longest = std::max(longest, duration);
-    }
-    for (std::size_t k = 0; all_read && longest > 0.0 && k < picture.times.size(); ++k)
-      if (picture.times[k] > longest * (1.0 + rounding))
-        throw InputError(
-            fmt::format("{}: the picture '{}' wants a frame at {} s, and its runs end at {} s; give "
-                        "earlier times, or a longer duration",
-                        picture.times_where[k], picture.name, picture.times[k], longest));
+    check_offers(plan, picture);
+    check_times(plan, picture);
   }
 }
 

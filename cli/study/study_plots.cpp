@@ -63,7 +63,8 @@ std::string y_label(const Study& study, const std::vector<std::string>& columns)
   if (columns.size() == 1) {
     const std::string quantity = quantity_label(study, columns.front()), label = column_label(study, columns.front());
     const ResultColumn* column = find_column(columns.front());
-    return quantity == label || !column ? label : fmt::format("{}, {}", quantity, column->label);
+    const bool says_it = !column || column->label.starts_with(column->quantity);
+    return says_it ? label : fmt::format("{}, {}", quantity, column->label);
   }
   std::vector<std::string> quantities;
   for (const std::string& name : columns)
@@ -300,7 +301,6 @@ std::pair<double, double> spectrum_row(const std::string& line) {
 
 // The rows of a run's spectrum.csv, after its heading.
 std::vector<std::pair<double, double>> spectrum_of_run(const ShownRun& run) {
-  require_output(run, "spectrum");
   return of_run(run, run.film / word_of(RunFile::spectrum_table), [&](const fs::path& file) {
     require_file(file);
     std::istringstream lines(read_regular_file(file, max_table_bytes, "; this is no spectrum"));

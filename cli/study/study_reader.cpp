@@ -242,6 +242,7 @@ PictureSpec read_picture(const Study& study, const Node& node) {
   picture.kind = read_choice<PictureKind>(*kind->value, "kind");
   MapReader map(node, keys::picture(picture.kind), make_map());
   picture.name = map.text("name");
+  picture.place = node.where;
   if (!is_file_name(picture.name)) fail_at(map.where("name"), "a picture's name is letters, digits, _ and - only");
   picture.title = map.text("title", "");
   picture.note = map.text("note", "");

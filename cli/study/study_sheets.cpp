@@ -87,16 +87,7 @@ std::vector<std::pair<long, double>> frames_at(const std::vector<std::pair<long,
   return found;
 }
 
-// Where the scene does not ask for the view, doing the run again would not help.
-void require_view(const ShownFilm& film, const std::string& view) {
-  const auto& views = film.record.views;
-  if (std::none_of(views.begin(), views.end(), [&](render::View has) { return render::name(has) == view; }))
-    throw InputError(fmt::format("it needs the view '{0}', and the scene of run {1} draws none; add it to render.views",
-                                 view, film.run.run->number));
-}
-
 render::Panel frame_panel(const ShownFilm& film, const std::string& view, long frame, int width) {
-  require_view(film, view);
   const fs::path file = film.run.film / view / fmt::format("frame_{:04}.png", frame);
   render::Panel panel{of_run(film.run, file, render::read_png), width, 0, true, ""};
   panel.height = std::max(1, panel.image.height * width / std::max(1, panel.image.width));
@@ -107,9 +98,7 @@ std::string lettered(std::size_t index, const std::string& label) {
   return fmt::format("({}) {}", static_cast<char>('a' + index % 26), label);
 }
 
-// A picture that a run makes where its scene has `key`.
-render::Image image_of(const ShownRun& run, RunFile picture, std::string_view key) {
-  require_output(run, key);
+render::Image image_of(const ShownRun& run, RunFile picture) {
   return of_run(run, run.film / word_of(picture), [&](const fs::path& file) {
     require_file(file);
     return render::read_png(file);
@@ -149,7 +138,7 @@ render::Sheet strips_sheet(std::vector<ShownFilm> films, const PictureSpec& pict
   for (std::size_t r = 0; r < films.size(); ++r) {
     const int width = std::max(1, static_cast<int>(std::lround(strip_duration(films[r]) / duration * strip_width)));
     sheet.rows.push_back({films.size() > 1 ? lettered(r, films[r].label()) : films[r].label(),
-                          {{image_of(films[r].run, RunFile::strip, "strip"), width, height, true, ""}},
+                          {{image_of(films[r].run, RunFile::strip), width, height, true, ""}},
                           {},
                           false});
   }
@@ -181,7 +170,7 @@ render::Sheet spectra_sheet(std::vector<ShownFilm> films, const PictureSpec& pic
   for (std::size_t f = 0; f < films.size(); ++f) {
     if (f % spectra_a_row == 0) sheet.rows.resize(sheet.rows.size() + 2);
     const auto panel = [&](RunFile file) {
-      return render::Panel{image_of(films[f].run, file, "spectrum"), spectrum_side, spectrum_side, false, ""};
+      return render::Panel{image_of(films[f].run, file), spectrum_side, spectrum_side, false, ""};
     };
     render::SheetRow &above = sheet.rows[sheet.rows.size() - 2], &below = sheet.rows.back();
     above.panels.push_back(panel(RunFile::velocity_image));
