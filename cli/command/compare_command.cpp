@@ -27,6 +27,12 @@ Json bits_of(render::Depth depth) {
   return depth == render::Depth::floats ? Json("float") : Json(depth == render::Depth::bits8 ? 8 : 16);
 }
 
+// A hash is a text of eight hexadecimal digits.
+Json worst_value(const render::Comparison& c, double value) {
+  if (c.worst_meaning == render::Meaning::hash) return render::identity_text(c.worst_meaning, value);
+  return number(value);
+}
+
 Json as_json(const ComparedPair& pair) {
   Json json = {{"name", pair.name},
                {"a", pair.a.string()},
@@ -42,7 +48,7 @@ Json as_json(const ComparedPair& pair) {
                {"apart", number(c.apart)},
                {"worst", {c.worst_x, c.worst_y}},
                {"worst_channel", c.worst_channel},
-               {"worst_values", {number(c.worst_a), number(c.worst_b)}},
+               {"worst_values", {worst_value(c, c.worst_a), worst_value(c, c.worst_b)}},
                {"mean", c.mean},
                {"rmse", c.rmse},
                {"psnr", number(c.psnr)},
@@ -107,8 +113,8 @@ void print_row(const ComparedPair& pair) {
 void print_table(const std::vector<ComparedPair>& pairs, const CompareOptions& options) {
   const bool flip = std::any_of(pairs.begin(), pairs.end(),
                                 [](const ComparedPair& pair) { return pair.comparison && pair.comparison->flip; });
-  print_line("{:<32} {:>8} {:>9} {:>9} {:>8} {:>9} {:>10} {:>8}", "image", "max", "mean", "rmse", "psnr dB", "ssim",
-             fmt::format("over {:.4g}/255", options.tolerance.what.threshold), flip ? "flip" : "");
+  print_line("{:<32} {:>8} {:>9} {:>9} {:>8} {:>9} {:>10}{}", "image", "max", "mean", "rmse", "psnr dB", "ssim",
+             fmt::format("over {:.4g}/255", options.tolerance.what.threshold), flip ? "     flip" : "");
   for (const ComparedPair& pair : pairs) print_row(pair);
   if (pairs.size() == 1) return;
   for (const ComparedSequence& sequence : sequences_of(pairs)) print_line("{}", sequence_text(sequence, pairs));

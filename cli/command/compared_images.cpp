@@ -113,7 +113,7 @@ void judge(ComparedPair& pair, const fs::path& baseline, const CompareOptions& o
     if (render::within_tolerance(*pair.comparison, tolerance.allowed))
       pair.verdict = Verdict::same;
     else if (const std::string broken = render::broken_limits(*pair.comparison, tolerance.allowed); !broken.empty())
-      pair.why = broken + ": " + pair.why;
+      pair.why = tolerance.allowed.metrics.empty() ? pair.why + "; " + broken : broken + ": " + pair.why;
   } catch (const InputError& error) {
     pair.verdict = Verdict::unreadable;
     pair.why = error.what();

@@ -26,19 +26,9 @@ constexpr std::size_t most_rows = 16384;                    // that canvases of 
 struct Layer {
   std::string name;
   std::vector<std::size_t> channels;
-  bool exact = false;
   std::int64_t over = 0;
   double max = 0.0;
 };
-
-bool is_colour(const std::string& name) { return name == "R" || name == "G" || name == "B" || name == "A"; }
-
-// "velocity" of velocity.X, "colour" of R, "Z" of Z.
-std::string layer_of(const std::string& channel) {
-  if (is_colour(channel)) return "colour";
-  const std::size_t dot = channel.rfind('.');
-  return dot == std::string::npos ? channel : channel.substr(0, dot);
-}
 
 // Colours in the order in which they are seen; OpenEXR sorts by name.
 int rank_in_layer(const std::string& channel) {
@@ -49,11 +39,10 @@ int rank_in_layer(const std::string& channel) {
 std::vector<Layer> layers_of(const render::RowShape& shape, const std::optional<render::Comparison>& comparison) {
   std::vector<Layer> layers;
   for (std::size_t c = 0; c < shape.channels.size(); ++c) {
-    const std::string name = layer_of(shape.channels[c].name);
+    const std::string name = render::layer_of(shape.channels[c].name);
     auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
-    if (layer == layers.end()) layer = layers.insert(layers.end(), {name, {}, false, 0, 0.0});
+    if (layer == layers.end()) layer = layers.insert(layers.end(), {name, {}, 0, 0.0});
     layer->channels.push_back(c);
-    layer->exact = layer->exact || shape.channels[c].exact;
     if (!comparison) continue;
     for (const render::ChannelComparison& found : comparison->channels)
       if (found.name == shape.channels[c].name) layer->over += found.over, layer->max = std::max(layer->max, found.max);
@@ -134,13 +123,16 @@ Json packed_values(const ComparedPair& pair) {
   Json json = {{"white", render::white_of(shape.depth)}, {"layer", 0}, {"layers", Json::array()}};
   std::vector<std::string> channels;
   for (const Layer& layer : shown_layers(shape, pair.comparison)) {
-    Json names = Json::array();
+    Json names = Json::array(), identities = Json::array(), hashes = Json::array();
     for (const std::size_t c : layer.channels) {
+      if (shape.channels[c].exact()) identities.push_back(shape.channels[c].name);
+      if (shape.channels[c].meaning == render::Meaning::hash) hashes.push_back(shape.channels[c].name);
       names.push_back(shape.channels[c].name);
       channels.push_back(shape.channels[c].name);
       if (pair.comparison && pair.comparison->worst_channel == channels.back()) json["layer"] = json["layers"].size();
     }
-    json["layers"].push_back({{"name", layer.name}, {"channels", names}, {"exact", layer.exact}});
+    json["layers"].push_back(
+        {{"name", layer.name}, {"channels", names}, {"identities", identities}, {"hashes", hashes}});
   }
   if (channels.empty()) return {};
   json["a"] = packed_side(pair.a, channels);

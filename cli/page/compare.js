@@ -62,6 +62,8 @@
 
   const layer_shown = () => pictures[current].values.layers[layers.selectedIndex];
 
+  const shows_identities = (layer) => layer.identities.includes(layer.channels[0]);
+
   // The finite values of a layer, of both: their smallest and largest.
   function range_of(layer) {
     let low = Infinity, high = -Infinity;
@@ -86,7 +88,7 @@
   // What black and white of a layer's picture are.
   function scale_text() {
     const layer = layer_shown(), gain = 2 ** Number(exposure.value);
-    if (layer.name === "colour" || layer.exact) return "";
+    if (layer.name === "colour" || shows_identities(layer)) return "";
     const { low, high } = range_of(layer), most = Math.max(Math.abs(low), Math.abs(high)) / gain;
     const text = (value) => String(Number(value.toPrecision(3)));
     return layer.channels.length > 1 ? `, ${text(-most)} to ${text(most)}` : `, ${text(low)} to ${text(low + (high - low) / gain)}`;
@@ -97,7 +99,7 @@
     if (!side) return null;
     const result = new ImageData(side.width, side.height), tone = tone_of(layer);
     const planes = layer.channels.map((name) => side.planes[name]);
-    const bits = layer.exact ? new Uint32Array(planes[0].buffer) : null;
+    const bits = shows_identities(layer) ? new Uint32Array(planes[0].buffer) : null;
     for (let i = 0; i < side.width * side.height; ++i) {
       const mixed = bits ? Math.imul(bits[i], 2654435761) >>> 8 : 0;
       for (let c = 0; c < 3; ++c) {
@@ -143,7 +145,7 @@
   function difference_of_values(result) {
     const layer = layer_shown();
     for (let i = 0; i < result.data.length / 4; ++i) {
-      const apart = layer.channels.map((name) => difference_gain() * apart_of(numbers.a.planes[name][i], numbers.b.planes[name][i], layer.exact));
+      const apart = layer.channels.map((name) => difference_gain() * apart_of(numbers.a.planes[name][i], numbers.b.planes[name][i], layer.identities.includes(name)));
       const most = Math.max(...apart);
       for (let c = 0; c < 3; ++c) result.data[4 * i + c] = layer.name === "colour" && apart.length >= 3 ? apart[c] : most;
       result.data[4 * i + 3] = 255;
@@ -210,14 +212,17 @@
 
   // The chosen pixel's values in the layer, a line for each channel.
   function value_lines() {
-    const { channels } = layer_shown(), { white } = pictures[current].values;
+    const { channels, hashes } = layer_shown(), { white } = pictures[current].values;
     const at = (side, name) =>
       side && pixel.x < side.width && pixel.y < side.height ? side.planes[name][pixel.y * side.width + pixel.x] : undefined;
     const text = (value, digits = 6) =>
       value === undefined ? "nothing" : Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : String(value);
+    const hash = (value) =>
+      value === undefined ? "nothing" : new Uint32Array(Float32Array.of(value).buffer)[0].toString(16).padStart(8, "0");
     const wide = Math.max(...channels.map((name) => name.length));
     const lines = channels.map((name) => {
       const a = at(numbers.a, name), b = at(numbers.b, name);
+      if (hashes.includes(name)) return `${name.padEnd(wide)}   A ${hash(a)}   B ${hash(b)}   ${a === b ? "the same" : "another"}`;
       const apart = a === undefined || b === undefined ? "" : `   apart ${a === b ? 0 : text(Math.abs(a - b))}`;
       const digits = a !== b && text(a) === text(b) ? 10 : 6; // as many as tell them apart
       return `${name.padEnd(wide)}   A ${text(a, digits)}   B ${text(b, digits)}${apart}`;

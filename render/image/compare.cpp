@@ -23,7 +23,7 @@ bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::is
 // What of 255 a difference of two values is, which lie around `a` and `b`.
 double share_of_white(Depth depth, const RowChannel& channel, double difference, double a, double b) {
   if (!std::isfinite(difference)) return infinity;
-  if (channel.exact) return difference == 0.0 ? 0.0 : 255.0;
+  if (channel.exact()) return difference == 0.0 ? 0.0 : 255.0;
   if (depth != Depth::floats) return difference * 255.0 / white_of(depth);
   return 255.0 * difference / std::max({1.0, std::abs(a), std::abs(b)});
 }
@@ -119,7 +119,11 @@ struct RowComparison::Differences {
         over(static_cast<std::size_t>(shape.width)),
         worst(static_cast<std::size_t>(shape.width)) {
     result.depth = shape.depth;
-    for (const RowChannel& channel : shape.channels) result.channels.push_back({channel.name});
+    for (const RowChannel& channel : shape.channels) {
+      result.channels.push_back({channel.name});
+      layer.push_back(layer_of(channel.name));
+    }
+    over_in.resize(shape.width, static_cast<Eigen::Index>(shape.channels.size()));
   }
 
   void add_row(const ValueRow& row_a, const ValueRow& row_b, const Eigen::ArrayXd& counts) {
@@ -151,6 +155,7 @@ struct RowComparison::Differences {
     const auto counts = counted.col(judged % counted.cols());
     std::fill(over.begin(), over.end(), State::near);
     std::fill(worst.begin(), worst.end(), 0.0);
+    over_in.setConstant(false);
     for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(shape.channels.size()); ++c) {
       if (options.ignore_alpha && shape.channels[c].name == "A") continue;
       for (Eigen::Index x = 0; x < shape.width; ++x)
@@ -160,7 +165,7 @@ struct RowComparison::Differences {
       result.explained += over[x] == State::explained;
       if (over[x] != State::over) continue;
       ++result.over;
-      result.over_off_edges += !has_edge(a, x) || !has_edge(b, x);
+      result.over_off_edges += is_off_edges(x);
     }
     find_worst();
     ++judged;
@@ -190,7 +195,7 @@ struct RowComparison::Differences {
       ++result.not_finite;
     }
     if (apart > options.threshold)
-      ++channel.over, over[x] = State::over;
+      ++channel.over, over[x] = State::over, over_in(x, c) = true;
     else if (options.edge > 0 && over[x] == State::near && share(plain_or_infinite(plain)) > options.threshold)
       over[x] = State::explained;
     worst[x] = std::max(worst[x], apart);
@@ -200,16 +205,25 @@ struct RowComparison::Differences {
 
   // What of a difference neither image has within the reach of edges.
   double unexplained(Eigen::Index x, Eigen::Index c, double value_a, double value_b) const {
-    const bool exact = shape.channels[c].exact;
+    const bool exact = shape.channels[c].exact();
     return std::max(b.around(x, judged, c, options.edge, value_a).beyond(value_a, exact),
                     a.around(x, judged, c, options.edge, value_b).beyond(value_b, exact));
   }
 
-  // Whether a channel spans more around a pixel than it does on a surface: where both images have an edge, a silhouette
-  // that is a fraction of a pixel aside explains a difference.
-  bool has_edge(const RowWindow& image, Eigen::Index x) const {
+  // Whether a layer that differs has no edge there in one of the images. That of another explains nothing: a colour's
+  // texture ends where no velocity does.
+  bool is_off_edges(Eigen::Index x) const {
+    for (Eigen::Index c = 0; c < over_in.cols(); ++c)
+      if (over_in(x, c) && (!has_edge(a, x, layer[c]) || !has_edge(b, x, layer[c]))) return true;
+    return false;
+  }
+
+  // Whether a channel of the layer spans more around a pixel than it does on a surface: where both images have an edge,
+  // a silhouette that is a fraction of a pixel aside explains a difference.
+  bool has_edge(const RowWindow& image, Eigen::Index x, const std::string& of) const {
     constexpr double least_edge = 24.0;  // [1/255]
-    for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(shape.channels.size()); ++c) {
+    for (Eigen::Index c = 0; c < over_in.cols(); ++c) {
+      if (layer[c] != of) continue;
       const Surroundings found = image.around(x, judged, c, 1, 0.0);
       if (!(found.low <= found.high)) continue;
       const double span = found.low == found.high ? 0.0 : found.high - found.low;
@@ -233,6 +247,7 @@ struct RowComparison::Differences {
       if (apart <= furthest) continue;
       furthest = apart;
       result.worst_channel = shape.channels[c].name;
+      result.worst_meaning = shape.channels[c].meaning;
       result.worst_a = value_a;
       result.worst_b = value_b;
     }
@@ -246,8 +261,10 @@ struct RowComparison::Differences {
   double of_255;  // what a step of the values is
   RowWindow a, b;
   Eigen::ArrayXXd counted;
-  std::vector<State> over;    // of the pixels of a row
-  std::vector<double> worst;  // [1/255]
+  std::vector<std::string> layer;                              // of each channel
+  std::vector<State> over;                                     // of the pixels of a row
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> over_in;  // (width x channels)
+  std::vector<double> worst;                                   // [1/255]
   Eigen::Index judged = 0;
   std::int64_t compared = 0;
   double sum = 0.0, squares = 0.0;

@@ -35,12 +35,13 @@ struct Comparison {
   double ssim = 1.0;             // structural similarity (similarity.h) of what is seen; NaN where there are no colours
   std::int64_t pixels = 0;       // that count
   std::int64_t over = 0;         // of them, in which a channel differs by more than the threshold
-  std::int64_t over_off_edges = 0;               // of these, with no edge that both images have within a pixel
+  std::int64_t over_off_edges = 0;               // of these, with no edge of what differs within a pixel in both
   double share_over = 0.0;                       // over / pixels
   std::optional<double> flip = {};               // mean ꟻLIP (flip.h) of what is seen, where it was asked for
   Depth depth = Depth::bits8;                    // of the finer of the two
   double apart = 0.0;                            // [1/255] how far the worst pixel's values are apart
   std::string worst_channel = {};                // of that pixel
+  Meaning worst_meaning = Meaning::quantity;     // of its values
   double worst_a = 0.0, worst_b = 0.0;           // and what its values are: of 8 bits 0 to 255, of 16 0 to 65535
   std::int64_t explained = 0;                    // pixels over the threshold but for edges nearby
   std::int64_t not_finite = 0;                   // values infinitely far apart
@@ -124,8 +125,12 @@ struct Tolerance {
 /// Of images with values infinitely far apart no metric but ssim and flip holds.
 bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance = {});
 
-/// Which limits of metrics do not hold: "psnr 49.89 and not at least 60"; empty where images are judged otherwise.
+/// Which limits do not hold: "psnr 49.89 and not at least 60", or "allowed: 1 % over, worst 16". Empty where all
+/// do, and where it is that two identities are not the same.
 std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance);
+
+/// An identity as it is read elsewhere: a hash as eight hexadecimal digits.
+std::string identity_text(Meaning meaning, double value);
 
 /// In a line, what differs and where: "412 px over 3/255 (0.04 %), worst 31 at (640, 212), all within 1 px of an edge".
 std::string difference_text(const Comparison& comparison, double threshold);

@@ -145,7 +145,10 @@ struct ExrRows::File {
                                : reinterpret_cast<char*>(floats.emplace_back(shape.width).data());
       buffer.insert(channel.name(), Imf::Slice(whole ? Imf::UINT : Imf::FLOAT, base - before, 4, 0));
       is_whole.push_back(whole);
-      shape.channels.push_back({free_name(channel.name(), header), whole || is_identity(channel.name(), layers)});
+      shape.channels.push_back({free_name(channel.name(), header), whole ? Meaning::number
+                                                                   : is_identity(channel.name(), layers)
+                                                                       ? Meaning::hash
+                                                                       : Meaning::quantity});
     }
     parts.emplace_back(input, number).setFrameBuffer(buffer);
   }

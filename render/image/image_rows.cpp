@@ -35,6 +35,8 @@ bool is_exr(const fs::path& file) {
   return extension == ".exr" && head[0] != '\x89';
 }
 
+bool is_colour(const std::string& name) { return name == "R" || name == "G" || name == "B" || name == "A"; }
+
 int place_of(const std::vector<RowChannel>& channels, std::string_view name) {
   const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == name; });
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
@@ -52,7 +54,7 @@ void read_png_values(PngRows& rows, ValueRow& row) {
 
 RowShape shape_of_png(const PngRows& rows) {
   RowShape shape{rows.width(), rows.height(), 0, 0, rows.bits() == 8 ? Depth::bits8 : Depth::bits16, {}};
-  for (const char* name : {"R", "G", "B", "A"}) shape.channels.push_back({name, false});
+  for (const char* name : {"R", "G", "B", "A"}) shape.channels.push_back({name});
   shape.channels.resize(static_cast<std::size_t>(rows.channels()));
   return shape;
 }
@@ -85,6 +87,12 @@ std::optional<std::string> mismatch_of(const RowShape& a, const RowShape& b, con
 }
 
 }  // namespace
+
+std::string layer_of(const std::string& channel) {
+  if (is_colour(channel)) return "colour";
+  const std::size_t dot = channel.rfind('.');
+  return dot == std::string::npos ? channel : channel.substr(0, dot);
+}
 
 std::optional<Eigen::Array3i> RowShape::colours() const {
   const Eigen::Array3i rgb(place_of(channels, "R"), place_of(channels, "G"), place_of(channels, "B"));
@@ -149,12 +157,11 @@ ImagePair::ImagePair(const fs::path& a, const fs::path& b) : a_(a), b_(b) {
   if (mismatch_) return;
   shape_ = shape_a;
   shape_.depth = std::max(shape_a.depth, shape_b.depth);
-  if (place_of(shape_.channels, "A") < 0 && place_of(shape_b.channels, "A") >= 0)
-    shape_.channels.push_back({"A", false});
+  if (place_of(shape_.channels, "A") < 0 && place_of(shape_b.channels, "A") >= 0) shape_.channels.push_back({"A"});
   for (RowChannel& channel : shape_.channels) {
     a_.source.push_back(place_of(shape_a.channels, channel.name));
     b_.source.push_back(place_of(shape_b.channels, channel.name));
-    if (b_.source.back() >= 0) channel.exact = channel.exact || shape_b.channels[b_.source.back()].exact;
+    if (b_.source.back() >= 0) channel.meaning = std::max(channel.meaning, shape_b.channels[b_.source.back()].meaning);
   }
   if (shape_a.depth != shape_b.depth)
     note_ = fmt::format("{} against {} bits", shape_a.depth == Depth::bits8 ? 8 : 16,

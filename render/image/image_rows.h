@@ -14,10 +14,19 @@ namespace billow::render {
 /// How an image keeps its values: 0 to 255, 0 to 65535, or numbers in units of their own.
 enum class Depth { bits8, bits16, floats };
 
+/// What the values of a channel are: quantities, or identities, of which two are the same or they are not. A hash is
+/// the bits of a 32-bit float, as Cryptomatte has it.
+enum class Meaning { quantity, number, hash };
+
 struct RowChannel {
-  std::string name;    // R, G, B, A, or as OpenEXR has it: LAYER.COMPONENT
-  bool exact = false;  // identities rather than quantities: two are the same or they are not
+  std::string name;  // R, G, B, A, or as OpenEXR has it: LAYER.COMPONENT
+  Meaning meaning = Meaning::quantity;
+
+  bool exact() const { return meaning != Meaning::quantity; }
 };
+
+/// "LAYER" of LAYER.COMPONENT, "colour" of R, G, B and A, else the channel itself.
+std::string layer_of(const std::string& channel);
 
 /// What is known of an image before its rows.
 struct RowShape {

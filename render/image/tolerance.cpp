@@ -1,8 +1,11 @@
 // Comparison -> same or not, and why in a line.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "render/image/compare.h"
@@ -60,14 +63,22 @@ bool holds(const Comparison& c, const MetricLimit& m) {
   return is_high_for_alike(m.metric) ? value >= m.limit : value <= m.limit;
 }
 
+bool are_few(const Comparison& c, const Tolerance& tolerance) {
+  return tolerance.pixels ? c.over <= *tolerance.pixels : c.share_over <= tolerance.share;
+}
+
 }  // namespace
+
+std::string identity_text(Meaning meaning, double value) {
+  return meaning == Meaning::hash ? fmt::format("{:08x}", std::bit_cast<std::uint32_t>(static_cast<float>(value)))
+                                  : fmt::format("{:.0f}", value);
+}
 
 bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance) {
   if (!tolerance.metrics.empty())
     return std::all_of(tolerance.metrics.begin(), tolerance.metrics.end(),
                        [&](const MetricLimit& limit) { return holds(comparison, limit); });
-  const bool few = tolerance.pixels ? comparison.over <= *tolerance.pixels : comparison.share_over <= tolerance.share;
-  return comparison.apart <= tolerance.worst && few;
+  return comparison.apart <= tolerance.worst && are_few(comparison, tolerance);
 }
 
 namespace {
@@ -77,9 +88,13 @@ std::string threshold_text(const Comparison& c, double threshold) {
   return c.depth == Depth::floats ? fmt::format("{:.3g}", threshold / 255.0) : fmt::format("{:.4g}/255", threshold);
 }
 
-// "31"; what 8 bits do not have in their own steps too: "0.003891 (1/65535)".
+// "31"; of identities "another hash"; what 8 bits do not have in their own steps too: "0.003891 (1/65535)".
 std::string worst_text(const Comparison& c) {
   const std::string at = fmt::format("at ({}, {})", c.worst_x, c.worst_y);
+  if (c.worst_meaning != Meaning::quantity)
+    return fmt::format("another {} in {} {}: {} and {}", c.worst_meaning == Meaning::hash ? "hash" : "number",
+                       c.worst_channel, at, identity_text(c.worst_meaning, c.worst_a),
+                       identity_text(c.worst_meaning, c.worst_b));
   if (c.depth == Depth::floats) {
     const double difference = std::abs(c.worst_a - c.worst_b);
     // As many digits as tell them apart.
@@ -112,13 +127,20 @@ std::string asides(const Comparison& c) {
 }  // namespace
 
 std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance) {
-  std::string text;
+  std::vector<std::string> broken;
   for (const MetricLimit& limit : tolerance.metrics)
     if (!holds(comparison, limit))
-      text += fmt::format("{}{} {:.4g} and not {} {:.4g}", text.empty() ? "" : ", ", word_of(limit.metric),
-                          value_of(comparison, limit.metric), is_high_for_alike(limit.metric) ? "at least" : "at most",
-                          limit.limit);
-  return text;
+      broken.push_back(fmt::format("{} {:.4g} and not {} {:.4g}", word_of(limit.metric),
+                                   value_of(comparison, limit.metric),
+                                   is_high_for_alike(limit.metric) ? "at least" : "at most", limit.limit));
+  if (!tolerance.metrics.empty()) return fmt::format("{}", fmt::join(broken, ", "));
+  if (!are_few(comparison, tolerance))
+    broken.push_back(tolerance.pixels ? fmt::format("{} px over", *tolerance.pixels)
+                                      : fmt::format("{:.3g} % over", 100.0 * tolerance.share));
+  if (comparison.apart > tolerance.worst && comparison.worst_meaning == Meaning::quantity)
+    broken.push_back(comparison.depth == Depth::floats ? fmt::format("worst {:.3g} %", tolerance.worst / 2.55)
+                                                       : fmt::format("worst {:.4g}", tolerance.worst));
+  return broken.empty() ? "" : fmt::format("allowed: {}", fmt::join(broken, ", "));
 }
 
 std::string difference_text(const Comparison& c, double threshold) {

@@ -31,7 +31,8 @@ TEST_F(CompareCommand, JudgesEveryPairOfTwoFolders) {
   const ToolResult result = compare({"a", "b"});
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.output, HasSubstr("DIFFERENT: 3 x 3 and 2 x 3 pixels\n"));
-  EXPECT_THAT(result.output, HasSubstr("DIFFERENT: 1 px over 3/255 (0.5 %), worst 90 at (3, 4), none at an edge"));
+  EXPECT_THAT(result.output,
+              HasSubstr("DIFFERENT: 1 px over 3/255 (0.5 %), worst 90 at (3, 4), none at an edge; allowed: worst 16"));
   EXPECT_THAT(result.output, HasSubstr("UNREADABLE: b/3 damaged.png: "));
   EXPECT_THAT(result.output, HasSubstr("  same\n"));
   EXPECT_THAT(result.output, HasSubstr("DIFFERENT: missing in a\n"));

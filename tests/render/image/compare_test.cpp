@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -217,9 +219,9 @@ TEST(Edge, IsWhatWindowsOneByOneSay) {
 
 // Pairs of values of one channel, in a row.
 Comparison compare_floats(const std::vector<double>& a, const std::vector<double>& b,
-                          const ComparisonOptions& options = {}, bool exact = false) {
+                          const ComparisonOptions& options = {}, Meaning meaning = Meaning::quantity) {
   const int width = static_cast<int>(a.size());
-  RowComparison comparison(RowShape{width, 1, 0, 0, Depth::floats, {{"Z", exact}}}, options);
+  RowComparison comparison(RowShape{width, 1, 0, 0, Depth::floats, {{"Z", meaning}}}, options);
   comparison.add_row(ValueRow(Eigen::Map<const Eigen::ArrayXd>(a.data(), width)),
                      ValueRow(Eigen::Map<const Eigen::ArrayXd>(b.data(), width)));
   return comparison.finish();
@@ -258,9 +260,48 @@ TEST(CompareFloats, TakeNanAndInfinityForValues) {
 
 TEST(CompareFloats, KnowIdentitiesOnlyAsTheSameOrNot) {
   EXPECT_EQ(compare_floats({1e-20}, {2e-20}).over, 0);
-  EXPECT_EQ(compare_floats({1e-20}, {2e-20}, {}, true).apart, 255.0);
-  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 3, 3, 3}, {.edge = 1}, true).over, 0);
-  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 2, 3, 3}, {.edge = 1}, true).over, 1);  // 2 is nothing between 1 and 3
+  EXPECT_EQ(compare_floats({1e-20}, {2e-20}, {}, Meaning::number).apart, 255.0);
+  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 3, 3, 3}, {.edge = 1}, Meaning::number).over, 0);
+  EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 2, 3, 3}, {.edge = 1}, Meaning::number).over,
+            1);  // 2 is nothing between 1 and 3
+}
+
+TEST(CompareFloats, SayWhichIdentitiesTheyAre) {
+  const auto hash = [](std::uint32_t bits) { return static_cast<double>(std::bit_cast<float>(bits)); };
+  const Comparison hashes = compare_floats({1, hash(0x8f6a5164)}, {1, hash(0x0042abcd)}, {}, Meaning::hash);
+  EXPECT_EQ(difference_text(hashes, 3),
+            "1 px over 0.0118 (50 %), another hash in Z at (1, 0): 8f6a5164 and 0042abcd, all within 1 px of an edge");
+  EXPECT_EQ(broken_limits(hashes, {.share = 1}), "");
+  EXPECT_FALSE(within_tolerance(hashes, {.share = 1}));
+  const Comparison numbers = compare_floats({7, 4000000000}, {7, 4000000001}, {}, Meaning::number);
+  EXPECT_THAT(difference_text(numbers, 3),
+              testing::HasSubstr("another number in Z at (1, 0): 4000000000 and 4000000001"));
+}
+
+// A depth that ends between the second pixel and the third, and a velocity of which one differs.
+TEST(CompareFloats, LookForEdgesInWhatDiffers) {
+  const auto over_off_edges = [](int differs, double by) {
+    RowComparison comparison(RowShape{4, 1, 0, 0, Depth::floats, {{"Z"}, {"v.X"}, {"v.Y"}}}, {});
+    ValueRow a(4, 3), b(4, 3);
+    a << 1, 0.1, 0.2, 1, 0.1, 0.2, 5, 0.1, 0.2, 5, 0.1, 0.2;
+    b = a;
+    b(2, differs) += by;
+    comparison.add_row(a, b);
+    return comparison.finish().over_off_edges;
+  };
+  EXPECT_EQ(over_off_edges(0, 0.5), 0);
+  EXPECT_EQ(over_off_edges(1, 0.05), 1);
+}
+
+TEST(Tolerance, SaysWhatItWouldAllow) {
+  const auto broken = [](const Tolerance& tolerance) {
+    return broken_limits(compare_floats({0.0, 0.5, 300.0}, {0.3, 0.5, 330.0}), tolerance);
+  };
+  EXPECT_EQ(broken({}), "allowed: 1 % over, worst 6.27 %");
+  EXPECT_EQ(broken({.worst = 100}), "allowed: 1 % over");
+  EXPECT_EQ(broken({.pixels = 1}), "allowed: 1 px over, worst 6.27 %");
+  EXPECT_EQ(broken({.worst = 100, .pixels = 2}), "");
+  EXPECT_EQ(broken({.metrics = {{Metric::max, 100}, {Metric::max, 1}}}), "max 30 and not at most 1");
 }
 
 TEST(Difference, IsAmplifiedAndClamped) {

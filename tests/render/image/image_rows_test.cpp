@@ -90,9 +90,10 @@ TEST_F(Rows, TakeHashesOfNamesForIdentities) {
   DataImage image = data(1, 1, {"id00.G", "id00.R", "id01.B", "identity.R"});
   image.notes = {{"cryptomatte/1234567/name", "id"}};
   write_exr(path("a.exr"), image);
-  std::vector<bool> exact;
-  for (const RowChannel& channel : ImageRows(path("a.exr")).shape().channels) exact.push_back(channel.exact);
-  EXPECT_THAT(exact, ElementsAre(false, true, true, false));
+  std::vector<Meaning> meaning;
+  const ImageRows rows(path("a.exr"));
+  for (const RowChannel& channel : rows.shape().channels) meaning.push_back(channel.meaning);
+  EXPECT_THAT(meaning, ElementsAre(Meaning::quantity, Meaning::hash, Meaning::hash, Meaning::quantity));
 }
 
 TEST_F(Rows, SayWhatIsWrongWithAnOpenExrFile) {
