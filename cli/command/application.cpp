@@ -39,6 +39,23 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return fmt::format("unknown command '{}'{}", shortened(argv[1]), suggestion(argv[1], known, "commands are"));
 }
 
+// CLI11 names what is left over from its end, and not what it may have been meant for.
+std::string unexpected_arguments(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const std::vector<std::string> left = app.remaining(true);
+  std::vector<std::string> quoted;
+  for (const std::string& word : left) quoted.push_back(fmt::format("'{}'", shortened(word)));
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  const std::string name = command == &app ? "billow" : "billow " + command->get_name();
+  const std::string meant(closest_name(left.empty() ? "" : left.front(), {known.begin(), known.end()}));
+  return fmt::format(
+      "{} does not take {}; {}", name, fmt::join(quoted, ", "),
+      meant.empty() ? fmt::format("'{} --help' lists what it takes", name) : fmt::format("did you mean '{}'?", meant));
+}
+
 /// Says errors: to people, or with --progress json to programs, also of arguments that are wrong themselves.
 class ErrorReport {
  public:
@@ -102,6 +119,7 @@ int run(int argc, char** argv, std::string_view commit) {
   ignore_write_signals();
   tidy_up_on_signals();
   heed_children();
+  choose_remarks(Remarks::lines);
   CLI::App app("Filtered mass-spring cloth and fish, rendered offscreen", "billow");
   Request request;
   request.commit = commit;
@@ -110,6 +128,8 @@ int run(int argc, char** argv, std::string_view commit) {
   if (const auto fault = unknown_command(app, argc, argv)) return report(*fault, exit_usage);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return report(unexpected_arguments(app), exit_usage);
   } catch (const CLI::ParseError& error) {
     std::ostringstream help, fault;
     const bool asked_for_help = app.exit(error, help, fault) == static_cast<int>(CLI::ExitCodes::Success);

@@ -29,7 +29,7 @@ void add_run_options(CLI::App& c, Request& r) {
       ->type_name("N");
   c.add_flag("--durable", r.render.durable,
              "Wait for the disk before a file gets its name: power cuts leave whole files");
-  add_progress(c, r.render.progress);
+  add_progress(c, &r.render.progress);
   c.final_callback([&r, &c] {
     require_scene_file(r.render.scene);
     for (const std::string& text : r.overrides) r.render.overrides.push_back(parse_override(text));
@@ -86,7 +86,7 @@ void add_scene_command(CLI::App& app, Request& r, const std::string& name, const
   CLI::App& c = *app.add_subcommand(name, help);
   add_scene_options(c, r.scene.scene, r);
   if (with_json) c.add_flag("--json", r.scene.json, "Print JSON");
-  add_progress(c, r.scene.progress);
+  add_progress(c, &r.scene.progress);
   c.final_callback([&r, command] {
     for (const std::string& text : r.overrides) r.scene.overrides.push_back(parse_override(text));
     set_command(r, r.scene.scene, [&r, command] { return command(r.scene); });
@@ -98,6 +98,7 @@ void add_mesh(CLI::App& app, Request& r) {
       *app.add_subcommand("mesh", "Look at a mesh file: counts, size, pieces, borders, what it has and lacks");
   add_named_file(c, "FILE", r.mesh.mesh, "Mesh file (.obj, .off, .stl, .ply, .gltf or .glb)", r);
   c.add_flag("--json", r.mesh.json, "Print JSON");
+  add_progress(c);
   c.final_callback([&r] { set_command(r, r.mesh.mesh, [&r] { return mesh_command(r.mesh); }); });
 }
 
@@ -110,7 +111,7 @@ void add_stability(CLI::App& app, Request& r) {
   c.add_option("--at", r.stability.time, "Linearise the state that the scene reaches at this time (default: at rest)")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
-  add_progress(c, r.stability.scene.progress);
+  add_progress(c, &r.stability.scene.progress);
   c.final_callback([&r] {
     if (!std::isfinite(r.stability.time)) throw CLI::ValidationError("--at", "needs a finite time");
     for (const std::string& text : r.overrides) r.stability.scene.overrides.push_back(parse_override(text));
@@ -126,7 +127,7 @@ void add_filter(CLI::App& app, Request& r) {
   c.add_option("--body", r.filter.body, "Whose waves (default: the scene's first body)")->type_name("NAME");
   c.add_option("-o,--output", r.filter.output, "Folder to write to (default: out/ and the scene's name with -filter)")
       ->type_name("DIR");
-  add_progress(c, r.filter.scene.progress);
+  add_progress(c, &r.filter.scene.progress);
   c.final_callback([&r] {
     if (!r.filter.scene.json && r.filter.output.empty()) require_scene_file(r.filter.scene.scene);
     for (const std::string& text : r.overrides) r.filter.scene.overrides.push_back(parse_override(text));
@@ -159,6 +160,7 @@ void add_compare(CLI::App& app, Request& r) {
   c.add_option("B", r.compare.b, "Image or folder")->required();
   c.add_option("--diff", r.compare.difference,
                "Write the difference image, times 8; of two folders those of all that differ")
+      ->check(refuse_standard_output)
       ->type_name("FILE|DIR");
   c.add_option("--channel", r.channel,
                "A pixel differs when a channel does by more: of 255, or of white, which is 1 in EXR (default: 3)")
@@ -179,13 +181,16 @@ void add_compare(CLI::App& app, Request& r) {
       ->type_name("FILE");
   c.add_flag("--ignore-alpha", r.compare.tolerance.what.ignore_alpha, "Compare colours only");
   c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")->type_name("DIR");
-  c.add_option("--junit", r.compare.junit, "Write the pairs as test cases of JUnit's XML")->type_name("FILE");
+  c.add_option("--junit", r.compare.junit, "Write the pairs as test cases of JUnit's XML")
+      ->check(refuse_standard_output)
+      ->type_name("FILE");
   c.add_flag("--accept", r.compare.accept, "Copy from B to A what differs or is new (not where CI is set)");
   c.add_option("--accept-only", r.compare.accept_only, "Copy this image alone (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->excludes("--accept");
   c.add_flag("--json", r.compare.json, "Print JSON");
+  add_progress(c);
   c.final_callback([&r] {
     set_tolerance(r);
     r.command = [&r] { return compare_command(r.compare); };
@@ -209,8 +214,11 @@ void add_golden(CLI::App& app, Request& r) {
   c.add_flag("--list", r.golden.list, "Print the names of the tests and do nothing")->excludes(update);
   c.add_flag("--allow-commands", r.golden.may_run_programs, "Run the commands that TESTS names")
       ->excludes(c.get_option("--untrusted"));
-  c.add_option("--junit", r.golden.junit, "Write the pictures as test cases of JUnit's XML")->type_name("FILE");
+  c.add_option("--junit", r.golden.junit, "Write the pictures as test cases of JUnit's XML")
+      ->check(refuse_standard_output)
+      ->type_name("FILE");
   c.add_flag("--json", r.golden.json, "Print JSON");
+  add_progress(c);
   c.add_option("--jobs", r.golden.jobs, "Tests at a time (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
@@ -257,6 +265,7 @@ void add_study(CLI::App& app, Request& r) {
       c.add_flag("--resume", r.study.resume,
                  "Runs keep their states while they go on: one that is stopped is gone on with from there");
   for (CLI::Option* option : {jobs, threads, resume}) option->excludes(list)->excludes(collect);
+  add_progress(c);
   c.final_callback([&r, &c] {
     check_spread(r);
     r.study.untrusted = r.spread.untrusted = r.untrusted;
@@ -277,6 +286,7 @@ void add_folder_options(CLI::App& command, Options& options, const std::string& 
   command
       .add_option("-o,--output", options.output,
                   fmt::format("File to write (default: in DIR, the view's name and {})", default_name))
+      ->check(refuse_standard_output)
       ->type_name("FILE");
   command.add_flag("--overwrite", options.overwrite, "Replace the file");
 }
@@ -287,7 +297,7 @@ void add_video(CLI::App& app, Request& r) {
   c.add_option("--fps", r.video.fps, "Frames a second (default: the run's)")
       ->check(CLI::Range(0.01, 1000.0))
       ->type_name("N");
-  add_progress(c, r.video.progress);
+  add_progress(c, &r.video.progress);
   c.final_callback([&r] { r.command = [&r] { return video_command(r.video); }; });
 }
 
@@ -300,6 +310,7 @@ void add_sheet(CLI::App& app, Request& r) {
   c.add_option("--columns", r.sheet.columns, "Frames a row (default: about as many as rows)")
       ->check(CLI::Range(1, 400))
       ->type_name("N");
+  add_progress(c);
   c.final_callback([&r] { r.command = [&r] { return sheet_command(r.sheet); }; });
 }
 

@@ -78,10 +78,19 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
       ->allow_extra_args(false);
 }
 
-void add_progress(CLI::App& command, ProgressStyle& style) {
+std::string refuse_standard_output(const std::string& file) {
+  return file == "-" ? "'-' is standard output, where this is not written; name a file" : "";
+}
+
+void add_progress(CLI::App& command, ProgressStyle* style) {
   command
       .add_option_function<std::string>(
-          "--progress", [&style](const std::string& text) { style = parse_word<ProgressStyle>("--progress", text); },
+          "--progress",
+          [style](const std::string& text) {
+            const auto chosen = parse_word<ProgressStyle>("--progress", text);
+            choose_remarks(remarks_of(chosen));
+            if (style) *style = chosen;
+          },
           "auto, plain, json or none, which leaves errors alone (default: auto)")
       ->type_name("STYLE");
 }

@@ -64,7 +64,12 @@ Enum parse_word(const std::string& option, const std::string& text) {
                              fmt::format("there is no '{}'{}", text, suggestion(text, all_words<Enum>(), "it takes")));
 }
 
-void add_progress(CLI::App& command, ProgressStyle& style);
+/// For options of files that are written whole or not at all: "-" would become a file of that name. Returns what is
+/// wrong.
+std::string refuse_standard_output(const std::string& file);
+
+/// Also of what is said besides; `style` is for a command whose Progress wants to know.
+void add_progress(CLI::App& command, ProgressStyle* style = nullptr);
 
 void add_backend(CLI::App& command, Request& request);
 /// Of the option or of the environment: what is wrong with either is found before anything runs.

@@ -1,10 +1,9 @@
 // billow sheet: frames of a run side by side on one page, with their times.
-#include <fmt/format.h>
-
 #include "base/readable_number.h"
 #include "cli/command/application.h"
 #include "cli/command/commands.h"
 #include "cli/run/contact_sheet.h"
+#include "cli/text/terminal.h"
 #include "render/image/png.h"
 
 namespace billow::cli {
@@ -17,8 +16,7 @@ int sheet_command(const SheetOptions& options) {
   check_replaceable(file, options.overwrite);
   const TimedFrames chosen = evenly_chosen(run.frames, static_cast<std::size_t>(options.count));
   render::write_png(file, contact_sheet(run, views, chosen, static_cast<std::size_t>(options.columns)));
-  Progress(ProgressStyle::plain)
-      .say(fmt::format("wrote {} ({})", file.string(), counted(static_cast<long>(chosen.size()), "frame")));
+  say_line("wrote {} ({})", file.string(), counted(static_cast<long>(chosen.size()), "frame"));
   return exit_done;
 }
 

@@ -12,8 +12,8 @@
 #include "base/child_process.h"
 #include "base/error.h"
 #include "cli/golden/golden_render.h"
+#include "cli/run/progress.h"
 #include "cli/study/study_jobs.h"
-#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -66,8 +66,8 @@ class TestKeeper : public JobKeeper {
   void ended(const JobEnd& end) override {
     const GoldenTest& test = this->test(end.number);
     if (end.status != 0) failures[test.name] = cause_of(test, end.status, folder_.log_of(test.name));
-    say_line("[{}/{}] {}: {} in {:.1f} s", ++ended_, due_.size(), test.name, end.status == 0 ? "done" : "failed",
-             end.seconds);
+    say_ended({"tests", ++ended_, due_.size(), test.name, end.status == 0 ? "done" : "failed",
+               fmt::format("in {:.1f} s", end.seconds)});
   }
 
   void waits(const std::vector<int>&) override {}

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/announcement.h"
 #include "cli/text/json_text.h"
-#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -34,6 +34,30 @@ Words<ProgressStyle> words(ProgressStyle) {
                                                  {"json", ProgressStyle::json},
                                                  {"none", ProgressStyle::none}};
   return list;
+}
+
+Remarks remarks_of(ProgressStyle style) {
+  switch (style) {
+    case ProgressStyle::automatic:
+    case ProgressStyle::plain:
+      return Remarks::lines;
+    case ProgressStyle::json:
+      return Remarks::json;
+    case ProgressStyle::none:
+      return Remarks::none;
+  }
+  throw std::logic_error("a style of progress has no remarks");
+}
+
+void say_ended(const EndedPiece& piece) {
+  if (remarks() == Remarks::json)
+    return say_json(json_text(nlohmann::ordered_json{{"stage", piece.stage},
+                                                     {"done", piece.done},
+                                                     {"total", piece.total},
+                                                     {"name", piece.name},
+                                                     {"status", piece.status},
+                                                     {"how", piece.how}}));
+  say_line("[{}/{}] {}: {} {}", piece.done, piece.total, piece.name, piece.status, piece.how);
 }
 
 Progress::Progress(ProgressStyle style, Clock::time_point begin)

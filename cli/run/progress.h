@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/words.h"
+#include "cli/text/terminal.h"
 
 namespace billow::cli {
 
@@ -15,6 +16,20 @@ namespace billow::cli {
 /// leaves errors alone.
 enum class ProgressStyle { automatic, plain, json, none };
 Words<ProgressStyle> words(ProgressStyle);
+
+/// How what a command says besides is said in that style.
+Remarks remarks_of(ProgressStyle style);
+
+/// Of several pieces of work that are each done by themselves, one that has ended.
+struct EndedPiece {
+  std::string_view stage;  // what they are: "runs"
+  std::size_t done = 0, total = 0;
+  std::string name;    // the piece's
+  std::string status;  // a word
+  std::string how;     // "in 2.1 s"
+};
+/// "[3/12] run_7: finished in 2.1 s", or that as an object, as choose_remarks has it.
+void say_ended(const EndedPiece& piece);
 
 /// A phase of a command, all its pieces together.
 struct PhaseTime {

@@ -13,6 +13,7 @@
 #include "base/claim.h"
 #include "base/error.h"
 #include "cli/run/output_folder.h"
+#include "cli/run/progress.h"
 #include "cli/study/study_jobs.h"
 #include "cli/study/study_run.h"
 #include "cli/text/terminal.h"
@@ -94,7 +95,8 @@ class SharedRuns : public JobKeeper {
   std::string command_line_of(int number) const { return cli::command_of(plan_.study, plan_.run(number)); }
 
   void report(int number, const std::string& how) {
-    say_line("[{}/{}] {}: {} {}", ++ended_, total_, plan_.name_of(number), name(plan_.result_of(number).status), how);
+    const std::string status(name(plan_.result_of(number).status));
+    say_ended({"runs", ++ended_, total_, plan_.name_of(number), status, how});
   }
 
   void say_waiting(int number, const ClaimHolder& holder) const {

@@ -8,8 +8,10 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/utf8.h"
+#include "cli/text/json_text.h"
 
 namespace billow::cli {
 namespace {
@@ -76,6 +78,8 @@ void write_out(const std::string& text) {
     throw std::system_error(errno, std::generic_category(), "the output could not be written");
 }
 
+Remarks chosen_remarks = Remarks::lines;
+
 void write_aside(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
 }  // namespace
@@ -104,6 +108,21 @@ void say_message(std::string_view line) {
 }
 
 void say_json(std::string_view json) { write_aside(printable_json(json) + "\n"); }
+
+void choose_remarks(Remarks manner) { chosen_remarks = manner; }
+
+Remarks remarks() { return chosen_remarks; }
+
+void say_remark(const std::string& line) {
+  switch (chosen_remarks) {
+    case Remarks::lines:
+      return say_message(line);
+    case Remarks::json:
+      return say_json(json_text(nlohmann::json{{"message", line}}));
+    case Remarks::none:
+      return;
+  }
+}
 
 void wipe_line() { write_aside(wipe); }
 

@@ -30,14 +30,20 @@ void print_line(fmt::format_string<Values...> format, Values&&... values) {
   print_text(printable(fmt::format(format, std::forward<Values>(values)...)) + "\n");
 }
 
+/// How say_line says what it says, in the whole process: as lines, as objects {"message": …}, or not at all.
+enum class Remarks { lines, json, none };
+void choose_remarks(Remarks);
+Remarks remarks();
+
 /// To stderr: what is said besides. Never fails: a closed stderr must not become another error. Of a line of more than
 /// 4000 bytes the middle is left out: files can have names and lists of any length.
 void say_text(std::string_view lines);
 void say_json(std::string_view json);
 void say_message(std::string_view line);
+void say_remark(const std::string& line);
 template <class... Values>
 void say_line(fmt::format_string<Values...> format, Values&&... values) {
-  say_message(fmt::format(format, std::forward<Values>(values)...));
+  say_remark(fmt::format(format, std::forward<Values>(values)...));
 }
 
 /// Takes a terminal's line back, for another in its place.

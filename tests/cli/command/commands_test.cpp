@@ -162,6 +162,50 @@ TEST_F(Commands, ErrorsAreJsonWhereProgressIs) {
   EXPECT_EQ(error({"chek", "x", "--progress", "json"})["hint"], "did you mean 'check'?");
 }
 
+TEST_F(Commands, AllButDoctorSayWhatTheySayAsProgressHasIt) {
+  for (const char* command : {"render", "simulate", "check", "mesh", "structure", "stability", "filter", "study",
+                              "compare", "golden", "video", "sheet"})
+    EXPECT_NE(run({command, "--help"}).output.find("--progress"), std::string::npos) << command;
+  folder_.write("study.yaml",
+                "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.02}\nmeasure: {render: false}\n"
+                "axes: [{name: method, key: solver.method, values: [verlet, rk4]}]\npictures: [{name: k0, kind: plot, "
+                "x: method, y: k0}]\n");
+  const ToolResult silent = run({"study", "study.yaml", "--jobs", "1", "--progress", "none"});
+  EXPECT_EQ(silent.status, 0);
+  EXPECT_EQ(silent.errors, "");
+  const ToolResult said = run({"study", "study.yaml", "--jobs", "1", "--overwrite", "--progress", "json"});
+  std::istringstream lines(said.errors);
+  std::vector<Json> ended;
+  for (std::string line; std::getline(lines, line);)
+    if (const Json json = Json::parse(line); json.contains("stage")) ended.push_back(json);
+  ASSERT_EQ(ended.size(), 2u) << said.errors;
+  EXPECT_EQ(ended[1]["stage"], "runs");
+  EXPECT_EQ(ended[1]["done"], 2);
+  EXPECT_EQ(ended[1]["total"], 2);
+  EXPECT_EQ(ended[1]["name"], "run 2, rk4");
+  EXPECT_EQ(ended[1]["status"], "done");
+}
+
+TEST_F(Commands, SayWhatIsLeftOfTheArguments) {
+  EXPECT_EQ(run({"compare", "a", "b", "--reprot", "c"}).errors,
+            "billow compare does not take '--reprot', 'c'; did you mean '--report'?\n");
+  EXPECT_EQ(run({"check", "a", "b"}).errors,
+            "billow check does not take 'b'; 'billow check --help' lists what it takes\n");
+  EXPECT_EQ(run({"check", "a", "b"}).status, 2);
+}
+
+TEST_F(Commands, WriteNoFileThatLooksLikeStandardOutput) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"compare", "a", "b", "--junit", "-"},
+                                                    {"compare", "a", "b", "--diff", "-"},
+                                                    {"golden", "a", "--junit", "-"},
+                                                    {"sheet", "a", "-o", "-"}}) {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.errors.find("'-' is standard output, where this is not written; name a file"), std::string::npos)
+        << result.errors;
+  }
+}
+
 TEST_F(Commands, ReadASceneFromStandardInput) {
   const auto shell = [&](const std::string& line) {
     return test::run_program("bash", {"-c", line, BILLOW_TOOL}, folder_.path());
