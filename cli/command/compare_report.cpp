@@ -144,7 +144,8 @@ std::string numbers(const ComparedPair& pair) {
   const render::Comparison& c = *pair.comparison;
   const auto cell = [](const std::string& text) { return fmt::format("<td class=\"number\">{}</td>", text); };
   return cell(std::isfinite(c.max) ? fmt::format("{:.4g}", c.max) : "∞") +
-         cell(c.rmse != 0.0 && c.rmse < 0.001 ? fmt::format("{:.1e}", c.rmse) : fmt::format("{:.3f}", c.rmse)) +
+         cell(c.rmse != 0.0 && (c.rmse < 0.001 || c.rmse >= 1e5) ? fmt::format("{:.1e}", c.rmse)
+                                                                 : fmt::format("{:.3f}", c.rmse)) +
          cell(std::isfinite(c.psnr) ? fmt::format("{:.1f} dB", c.psnr) : "∞") +
          cell(std::isnan(c.ssim) ? "" : fmt::format("{:.5f}", c.ssim)) +
          cell(c.flip ? fmt::format("{:.4f}", *c.flip) : "") + cell(fmt::format("{:.3g} %", 100.0 * c.share_over));

@@ -178,7 +178,7 @@ struct RowComparison::Differences {
       result.both_nan += std::isnan(value_a);
       return;
     }
-    const double plain = difference_of(value_a, value_b);
+    const double plain = shape.channels[c].exact() ? 1.0 : difference_of(value_a, value_b);
     const double difference = options.edge > 0 ? std::min(plain_or_infinite(plain), unexplained(x, c, value_a, value_b))
                                                : plain_or_infinite(plain);
     const auto share = [&](double of) {

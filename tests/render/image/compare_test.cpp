@@ -260,7 +260,10 @@ TEST(CompareFloats, TakeNanAndInfinityForValues) {
 
 TEST(CompareFloats, KnowIdentitiesOnlyAsTheSameOrNot) {
   EXPECT_EQ(compare_floats({1e-20}, {2e-20}).over, 0);
-  EXPECT_EQ(compare_floats({1e-20}, {2e-20}, {}, Meaning::number).apart, 255.0);
+  const Comparison c = compare_floats({1e-20, 3.0, 7.0}, {1e-20, 3.0, 9e30}, {}, Meaning::number);
+  EXPECT_EQ(c.apart, 255.0);
+  EXPECT_EQ(c.max, 1.0);
+  EXPECT_DOUBLE_EQ(c.mean, 1.0 / 3.0);
   EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 3, 3, 3}, {.edge = 1}, Meaning::number).over, 0);
   EXPECT_EQ(compare_floats({1, 1, 3, 3}, {1, 2, 3, 3}, {.edge = 1}, Meaning::number).over,
             1);  // 2 is nothing between 1 and 3
