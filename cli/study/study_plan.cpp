@@ -42,26 +42,40 @@ void read_hash(StudyPlan& plan, int number) {
 
 namespace {
 
-// What a picture does not find in the scene of one of its runs, and what to do; empty where it finds all.
-std::string lacking(const PictureSpec& picture, const RunOffer& offer) {
+// What a picture does not find in the scene of one of its runs, and what to do; empty where it finds all. Below strips
+// are frames of the first run alone, in one view.
+std::string lacking(const PictureSpec& picture, const RunOffer& offer, bool is_first) {
   const bool is_strip = picture.kind == PictureKind::strips;
   const bool is_spectrum = picture.kind == PictureKind::spectra || picture.kind == PictureKind::spectrum_curves;
   const std::string needed = is_strip && !offer.strip ? "strip" : is_spectrum && !offer.spectrum ? "spectrum" : "";
   if (!needed.empty()) return fmt::format("no {0}; give it one with '{0}: {{}}'", needed);
-  if (picture.times.empty()) return "";
-  for (const std::string& view : picture.views)
+  if (picture.times.empty() || (is_strip && !is_first)) return "";
+  for (const std::string& view : is_strip ? std::vector{picture.views.front()} : picture.views)
     if (std::find(offer.views.begin(), offer.views.end(), view) == offer.views.end())
       return fmt::format("no view '{}'; add it to render.views", view);
   return "";
 }
 
+// The runs of a picture, in its order.
+std::vector<const StudyRun*> runs_of_picture(const StudyPlan& plan, const PictureSpec& picture) {
+  std::vector<const StudyRun*> runs;
+  for (const StudyRun& run : plan.runs)
+    if (selects(picture, run)) runs.push_back(&run);
+  if (picture.rows)
+    std::stable_sort(runs.begin(), runs.end(), [&](const StudyRun* a, const StudyRun* b) {
+      return a->choice[*picture.rows] < b->choice[*picture.rows];
+    });
+  return runs;
+}
+
 void check_offers(const StudyPlan& plan, const PictureSpec& picture) {
-  for (const StudyRun& run : plan.runs) {
-    const std::optional<RunOffer>& offer = plan.offer[static_cast<std::size_t>(run.number) - 1];
-    if (!offer || !selects(picture, run)) continue;
-    if (const std::string lacks = lacking(picture, *offer); !lacks.empty())
+  const std::vector<const StudyRun*> runs = runs_of_picture(plan, picture);
+  for (const StudyRun* run : runs) {
+    const std::optional<RunOffer>& offer = plan.offer[static_cast<std::size_t>(run->number) - 1];
+    if (!offer) continue;
+    if (const std::string lacks = lacking(picture, *offer, run == runs.front()); !lacks.empty())
       throw InputError(fmt::format("{}: for the picture '{}' the scene of run {} has {}", picture.place, picture.name,
-                                   run.number, lacks));
+                                   run->number, lacks));
   }
 }
 

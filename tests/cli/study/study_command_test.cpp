@@ -314,6 +314,7 @@ TEST_F(StudyCommand, EndsItsRunsWhenItIsInterrupted) {
   const ToolResult result =
       test::run_tool({"study", "study.yaml", "-o", "made"}, folder_.path(), 0.1, made("runs/001-0.5/log.txt"));
   EXPECT_EQ(result.status, 130) << result.errors;
+  EXPECT_TRUE(result.errors.ends_with("\nstopped by SIGINT\n")) << result.errors;
   EXPECT_FALSE(fs::exists(made("runs/001-0.5/claim")));
   EXPECT_FALSE(fs::exists(made("runs/001-0.5/result.json")));
 }
@@ -411,6 +412,21 @@ TEST_F(StudyCommand, SaysWhatItsSceneLacksForAPicture) {
             "study.yaml:5:5: for the picture 'a' the scene of run 1 has no view 'velocity'; add it to render.views\n");
   EXPECT_EQ(fault("render.views: [textured]", "{name: a, kind: strips, times: [0], views: [velocity]}"),
             "study.yaml:5:5: for the picture 'a' the scene of run 1 has no view 'velocity'; add it to render.views\n");
+}
+
+// Frames below strips are the first run's, in one view; no other run needs it.
+TEST_F(StudyCommand, AsksTheFirstRunOfStripsAloneForFrames) {
+  const auto status = [&](const std::string& first, const std::string& second) {
+    folder_.write("study.yaml",
+                  "billow_study: 1\nscene: scene.yaml\nset: {duration: 0.1, render.size: [32, 24]}\n"
+                  "axes: [{name: view, key: render.views, values: [[" +
+                      first + "], [" + second +
+                      "]]}]\n"
+                      "pictures: [{name: a, kind: strips, times: [0.1], views: [textured, velocity]}]\n");
+    return study({"--list"}).status;
+  };
+  EXPECT_EQ(status("textured", "velocity"), 0);
+  EXPECT_EQ(status("velocity", "textured"), 4);
 }
 
 TEST_F(StudyCommand, LeavesOtherFoldersAlone) {
