@@ -125,7 +125,7 @@ struct Tolerance {
 /// Of images with values infinitely far apart no metric but ssim and flip holds.
 bool within_tolerance(const Comparison& comparison, const Tolerance& tolerance = {});
 
-/// Which limits do not hold: "psnr 49.89 and not at least 60", or "allowed: 1 % over, worst 16". Empty where all
+/// Which limits do not hold: "psnr 49.89 and not at least 60", or "allowed: 250 px over, worst 16". Empty where all
 /// do, and where it is that two identities are not the same.
 std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance);
 

@@ -143,7 +143,7 @@ std::vector<std::uint8_t> seen_row(const RowShape& shape, const ValueRow& row) {
   };
   for (int c = 0; c < 3; ++c)
     for (int x = 0; x < shape.width; ++x)  // rounded: it is not negative
-      seen[3 * x + c] = static_cast<std::uint8_t>(encoded(row(x, (*colours)(c))) + 0.5);
+      seen[3 * x + c] = static_cast<std::uint8_t>(std::lround(encoded(row(x, (*colours)(c)))));
   return seen;
 }
 

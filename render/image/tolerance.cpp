@@ -126,6 +126,24 @@ std::string asides(const Comparison& c) {
 
 }  // namespace
 
+namespace {
+
+std::int64_t allowed_over(const Comparison& c, const Tolerance& tolerance) {
+  return tolerance.pixels.value_or(
+      static_cast<std::int64_t>(std::floor(tolerance.share * static_cast<double>(c.pixels))));
+}
+
+// In the unit of the worst difference: of 255, or of the channel, of large values in proportion to them.
+double allowed_worst(const Comparison& c, const Tolerance& tolerance) {
+  if (c.depth != Depth::floats) return tolerance.worst;
+  double scale = 1.0;
+  for (const double value : {c.worst_a, c.worst_b})
+    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  return tolerance.worst / 255.0 * scale;
+}
+
+}  // namespace
+
 std::string broken_limits(const Comparison& comparison, const Tolerance& tolerance) {
   std::vector<std::string> broken;
   for (const MetricLimit& limit : tolerance.metrics)
@@ -134,12 +152,9 @@ std::string broken_limits(const Comparison& comparison, const Tolerance& toleran
                                    value_of(comparison, limit.metric),
                                    is_high_for_alike(limit.metric) ? "at least" : "at most", limit.limit));
   if (!tolerance.metrics.empty()) return fmt::format("{}", fmt::join(broken, ", "));
-  if (!are_few(comparison, tolerance))
-    broken.push_back(tolerance.pixels ? fmt::format("{} px over", *tolerance.pixels)
-                                      : fmt::format("{:.3g} % over", 100.0 * tolerance.share));
+  if (!are_few(comparison, tolerance)) broken.push_back(fmt::format("{} px over", allowed_over(comparison, tolerance)));
   if (comparison.apart > tolerance.worst && comparison.worst_meaning == Meaning::quantity)
-    broken.push_back(comparison.depth == Depth::floats ? fmt::format("worst {:.3g} %", tolerance.worst / 2.55)
-                                                       : fmt::format("worst {:.4g}", tolerance.worst));
+    broken.push_back(fmt::format("worst {:.4g}", allowed_worst(comparison, tolerance)));
   return broken.empty() ? "" : fmt::format("allowed: {}", fmt::join(broken, ", "));
 }
 

@@ -300,10 +300,11 @@ TEST(Tolerance, SaysWhatItWouldAllow) {
   const auto broken = [](const Tolerance& tolerance) {
     return broken_limits(compare_floats({0.0, 0.5, 300.0}, {0.3, 0.5, 330.0}), tolerance);
   };
-  EXPECT_EQ(broken({}), "allowed: 1 % over, worst 6.27 %");
-  EXPECT_EQ(broken({.worst = 100}), "allowed: 1 % over");
-  EXPECT_EQ(broken({.pixels = 1}), "allowed: 1 px over, worst 6.27 %");
+  EXPECT_EQ(broken({}), "allowed: 0 px over, worst 0.06275");
+  EXPECT_EQ(broken({.worst = 100}), "allowed: 0 px over");
+  EXPECT_EQ(broken({.pixels = 1}), "allowed: 1 px over, worst 0.06275");
   EXPECT_EQ(broken({.worst = 100, .pixels = 2}), "");
+  EXPECT_EQ(broken_limits(compare_floats({300.0}, {330.0}), {}), "allowed: 0 px over, worst 20.71");  // 16/255 of 330
   EXPECT_EQ(broken({.metrics = {{Metric::max, 100}, {Metric::max, 1}}}), "max 30 and not at most 1");
 }
 
