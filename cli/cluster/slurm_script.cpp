@@ -100,6 +100,7 @@ std::string submission(const SlurmScript& script, const SlurmJob& job, const Spr
 
 // The first line of what the shell or sbatch complained of.
 std::string complaint_of(const ProgramResult& result) {
+  if (!result.found) return "there is no bash";
   const std::string first = result.errors.substr(0, result.errors.find('\n'));
   return first.empty() ? fmt::format("exit status {}", result.status) : first;
 }

@@ -2,7 +2,10 @@
 #include "cli/command/application.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <sstream>
@@ -43,13 +46,16 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
 std::string unexpected_arguments(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  const std::vector<std::string> left = app.remaining(true);
+  std::vector<std::string> left = app.remaining(true);
+  const bool has_end_of_options = std::erase(left, "--") > 0;
   std::vector<std::string> quoted;
   for (const std::string& word : left) quoted.push_back(fmt::format("'{}'", shortened(word)));
   std::vector<std::string> known;
   for (const CLI::Option* option : command->get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
   const std::string name = command == &app ? "billow" : "billow " + command->get_name();
+  if (has_end_of_options)
+    return fmt::format("{} does not take {}; what stands behind '--' is no option", name, fmt::join(quoted, ", "));
   const std::string meant(closest_name(left.empty() ? "" : left.front(), {known.begin(), known.end()}));
   return fmt::format(
       "{} does not take {}; {}", name, fmt::join(quoted, ", "),
@@ -76,7 +82,9 @@ class ErrorReport {
   // What CLI11 says of arguments, with its own next step in a second line.
   int usage(const CLI::ParseError& error, const std::string& text) const {
     if (!as_json_) return say_text(text), exit_usage;
-    return (*this)(std::string(error.what()) + "; run with --help for more information", exit_usage);
+    const std::string message = error.what();
+    return (*this)(message.find("; ") != message.npos ? message : message + "; run with --help for more information",
+                   exit_usage);
   }
 
  private:
@@ -137,7 +145,10 @@ int run(int argc, char** argv, std::string_view commit) {
     return status_of_output(run_command([&] { return print_text(help.str()), exit_done; }, report), report);
   }
   request.render.command = typed_command(argc, argv);
-  return status_of_output(run_command(request.command, report), report);
+  const int status = run_command(request.command, report);
+  if (status > 128 && interrupted_by() != 0)
+    return report(fmt::format("stopped by SIG{}", sigabbrev_np(interrupted_by())), status);
+  return status_of_output(status, report);
 }
 
 }  // namespace billow::cli

@@ -17,6 +17,7 @@ namespace {
 void add_run_options(CLI::App& c, Request& r) {
   add_scene_options(c, r.render.scene, r, "Scene file (YAML)");
   c.add_option("-o,--output", r.render.output, "Folder to write to (default: out/ and the scene's name)")
+      ->check(refuse_standard_output)
       ->type_name("DIR");
   c.add_option("--cache", r.caches, "Also write geometry caches: pc2, mdd, obj, ply, vtp, glb (comma-separated)")
       ->type_name("FORMATS");
@@ -126,6 +127,7 @@ void add_filter(CLI::App& app, Request& r) {
   c.add_flag("--json", r.filter.scene.json, "Print JSON and write no plot");
   c.add_option("--body", r.filter.body, "Whose waves (default: the scene's first body)")->type_name("NAME");
   c.add_option("-o,--output", r.filter.output, "Folder to write to (default: out/ and the scene's name with -filter)")
+      ->check(refuse_standard_output)
       ->type_name("DIR");
   add_progress(c, &r.filter.scene.progress);
   c.final_callback([&r] {
@@ -180,7 +182,9 @@ void add_compare(CLI::App& app, Request& r) {
   c.add_option("--mask", r.compare.tolerance.mask, "PNG of the images' size: what is white in it counts")
       ->type_name("FILE");
   c.add_flag("--ignore-alpha", r.compare.tolerance.what.ignore_alpha, "Compare colours only");
-  c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")->type_name("DIR");
+  c.add_option("--report", r.compare.report, "Write a page to look at what differs, worst first")
+      ->check(refuse_standard_output)
+      ->type_name("DIR");
   c.add_option("--junit", r.compare.junit, "Write the pairs as test cases of JUnit's XML")
       ->check(refuse_standard_output)
       ->type_name("FILE");
@@ -203,6 +207,7 @@ void add_golden(CLI::App& app, Request& r) {
       "Render the scenes of a file of tests and compare their pictures with baselines; exit 3 when they differ");
   add_named_file(c, "TESTS", r.golden.tests, "File of tests (YAML)", r);
   c.add_option("-o,--output", r.golden.output, "Folder to write to (default: out/ and the name of TESTS)")
+      ->check(refuse_standard_output)
       ->type_name("DIR");
   CLI::Option* only =
       c.add_option("--only", r.golden.only, "Tests or pictures of these names alone: drape, 'drape/vel*'")
@@ -236,6 +241,7 @@ void add_study(CLI::App& app, Request& r) {
       "study", "Run a scene over axes of variation; make pictures, tables and a page; several may share a folder");
   add_named_file(c, "STUDY", r.study.study, "Study file (YAML)", r);
   c.add_option("-o,--output", r.study.output, "Folder to write to (default: out/ and the study's name)")
+      ->check(refuse_standard_output)
       ->type_name("DIR");
   CLI::Option* list = c.add_flag("--list", r.study.list, "Print the runs and whether they are finished");
   CLI::Option* only =

@@ -45,10 +45,14 @@ Place located_place(std::string_view text) {
   return {};
 }
 
+// One that is there, or that an argument names, or that was looked for in a folder that an argument names.
 bool is_file(std::string_view name, const std::vector<std::string>& arguments) {
   std::error_code error;
-  return std::find(arguments.begin(), arguments.end(), name) != arguments.end() ||
-         std::filesystem::exists(std::filesystem::path(name), error);
+  const auto names_it = [&](const std::string& argument) {
+    return name == argument || (!argument.empty() && name.starts_with(argument + "/"));
+  };
+  return !name.starts_with("--") && (std::any_of(arguments.begin(), arguments.end(), names_it) ||
+                                     std::filesystem::exists(std::filesystem::path(name), error));
 }
 
 Place place_of_file(std::string_view text, const std::vector<std::string>& arguments) {

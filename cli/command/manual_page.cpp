@@ -141,7 +141,7 @@ The pictures do not depend on it.
 .TP
 .B CI
 Where it is set,
-.B billow compare \-\-update
+.B billow compare \-\-accept
 accepts no images and
 .B billow golden \-\-update
 no baselines.

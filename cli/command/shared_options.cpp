@@ -79,7 +79,7 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, Request&
 }
 
 std::string refuse_standard_output(const std::string& file) {
-  return file == "-" ? "'-' is standard output, where this is not written; name a file" : "";
+  return file == "-" ? "'-' is standard output, where this is not written; give it a name" : "";
 }
 
 void add_progress(CLI::App& command, ProgressStyle* style) {

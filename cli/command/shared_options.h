@@ -64,8 +64,7 @@ Enum parse_word(const std::string& option, const std::string& text) {
                              fmt::format("there is no '{}'{}", text, suggestion(text, all_words<Enum>(), "it takes")));
 }
 
-/// For options of files that are written whole or not at all: "-" would become a file of that name. Returns what is
-/// wrong.
+/// For options of files and folders that are written: "-" would become one of that name. Returns what is wrong.
 std::string refuse_standard_output(const std::string& file);
 
 /// Also of what is said besides; `style` is for a command whose Progress wants to know.

@@ -128,7 +128,11 @@ int spread_frames_command(const RenderOptions& options, const SpreadOptions& spr
   const Scene scene = read_scene(options.scene, options.overrides, progress);
   const FrameRange range = range_of(options, scene);
   const fs::path folder = output_of(options);
-  if (!options.from.empty()) check_stored_states(options.from);
+  if (!options.from.empty()) {
+    check_stored_states(options.from);
+    const fs::path states = options.from / StateStore::folder_name;
+    check_stored_frames(states, StateStore::read_record(states), frame_count(scene));
+  }
   check_output_folder(folder, Existing::resume, scene);
   FramesWork work{
       options, spread, folder, options.from.empty() ? folder : options.from, unfinished_frames(range, folder, scene),

@@ -101,18 +101,11 @@ RunFacts KeptStates::facts() const {
 
 StoredStates::StoredStates(const Run& run, StateStore store, long first)
     : store_(std::move(store)), frames_(frame_schedule(run.scene, frame_count(run.scene))) {
-  const std::string folder = store_.folder().string();
   check_stored_states(store_.folder().parent_path());
   store_.holds_this_run();
   record_ = store_.read_record();
   frames_.pass_to(first);
-  const long wanted = frame_count(run.scene);
-  if (!record_.finished)
-    throw InputError(
-        fmt::format("{}: this simulation has not finished; go on with 'billow simulate --resume'", folder));
-  if (record_.frames < wanted && record_.divergence.empty())
-    throw InputError(fmt::format("{}: there are {} frames, and the scene has {}; go on with 'billow simulate --resume'",
-                                 folder, record_.frames, wanted));
+  check_stored_frames(store_.folder(), record_, frame_count(run.scene));
 }
 
 std::optional<sim::WatchedRun::Sample> StoredStates::next() {

@@ -116,8 +116,8 @@ bool StateStore::holds_this_run() const {
   return true;
 }
 
-StateStore::Record StateStore::read_record() const {
-  const fs::path file = folder_ / record_name;
+StateStore::Record StateStore::read_record(const fs::path& folder) {
+  const fs::path file = folder / record_name;
   return in_file(file, [&] {
     const Json json = read_json(file);
     return Record{facts_of(json.at("facts")), json.at("frames"), json.at("finished"), json.at("divergence")};
@@ -227,6 +227,15 @@ void check_stored_states(const fs::path& run) {
   const fs::path folder = run / StateStore::folder_name;
   if (!fs::is_regular_file(folder / StateStore::record_name, error))
     throw InputError(fmt::format("{}: there are no states; write them with 'billow simulate'", folder.string()));
+}
+
+void check_stored_frames(const fs::path& folder, const StateStore::Record& record, long wanted) {
+  if (!record.finished)
+    throw InputError(
+        fmt::format("{}: this simulation has not finished; go on with 'billow simulate --resume'", folder.string()));
+  if (record.frames < wanted && record.divergence.empty())
+    throw InputError(fmt::format("{}: there are {} frames, and the scene has {}; go on with 'billow simulate --resume'",
+                                 folder.string(), record.frames, wanted));
 }
 
 namespace {

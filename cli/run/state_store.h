@@ -40,7 +40,8 @@ class StateStore {
   /// version.
   bool holds_this_run() const;
   /// Throws InputError where there is none.
-  Record read_record() const;
+  Record read_record() const { return read_record(folder_); }
+  static Record read_record(const std::filesystem::path& folder);
   void write_record(const Record& record) const;
 
   bool has(double moment) const;
@@ -62,6 +63,9 @@ class StateStore {
 
 /// Throws InputError when `run`, a folder of a run, holds no states. Changes nothing.
 void check_stored_states(const std::filesystem::path& run);
+
+/// Throws InputError where a store, whose record that is, has not all frames that its scene wants, nor diverged.
+void check_stored_frames(const std::filesystem::path& folder, const StateStore::Record& record, long wanted);
 
 /// Removes the store's files from `folder`, and the folder when nothing else is in it.
 void remove_states(const std::filesystem::path& folder);

@@ -196,6 +196,15 @@ TEST_F(Spread, FramesDrawnApartAndCollectedAreThoseOfADirectRun) {
   EXPECT_EQ(record("alone"), record("film"));
 }
 
+TEST_F(Spread, FramesOfStatesThatAreTooFewAreNotHandedOut) {
+  ASSERT_EQ(billow({"simulate", "scene.yaml", "-o", "film"}).status, 0);
+  for (const char* how : {"--commands", "--slurm"}) {
+    const ToolResult result = billow({"render", "scene.yaml", "-D", "duration=1", "--from", "film", how});
+    EXPECT_EQ(result.status, 4);
+    EXPECT_THAT(result.errors, HasSubstr("film/states: there are 5 frames, and the scene has 25; go on with"));
+  }
+}
+
 TEST_F(Spread, ACollectedFilmHasNoDamagedFrame) {
   ASSERT_EQ(billow({"simulate", "scene.yaml", "-o", "film"}).status, 0);
   ASSERT_EQ(billow({"render", "scene.yaml", "--from", "film", "--frames-only"}).status, 0);

@@ -160,6 +160,10 @@ TEST_F(Commands, ErrorsAreJsonWhereProgressIs) {
   EXPECT_EQ(error({"render", "nowhere.yaml", "--progress=json"})["file"], "nowhere.yaml");
   EXPECT_EQ(error({"check", "--progress", "json"})["exit"], 2);
   EXPECT_EQ(error({"chek", "x", "--progress", "json"})["hint"], "did you mean 'check'?");
+  const Json wrong = error({"render", "scene.yaml", "--backend", "elg", "--progress", "json"});
+  EXPECT_TRUE(wrong["file"].is_null());
+  EXPECT_EQ(wrong["hint"], "did you mean 'egl'?");
+  EXPECT_EQ(error({"sheet", "nowhere", "--progress", "json"})["file"], "nowhere/run.json");
 }
 
 TEST_F(Commands, AllButDoctorSayWhatTheySayAsProgressHasIt) {
@@ -192,6 +196,8 @@ TEST_F(Commands, SayWhatIsLeftOfTheArguments) {
   EXPECT_EQ(run({"check", "a", "b"}).errors,
             "billow check does not take 'b'; 'billow check --help' lists what it takes\n");
   EXPECT_EQ(run({"check", "a", "b"}).status, 2);
+  EXPECT_EQ(run({"check", "--", "a", "--progress"}).errors,
+            "billow check does not take '--progress'; what stands behind '--' is no option\n");
 }
 
 TEST_F(Commands, WriteNoFileThatLooksLikeStandardOutput) {
@@ -201,7 +207,8 @@ TEST_F(Commands, WriteNoFileThatLooksLikeStandardOutput) {
                                                     {"sheet", "a", "-o", "-"}}) {
     const ToolResult result = run(arguments);
     EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.errors.find("'-' is standard output, where this is not written; name a file"), std::string::npos)
+    EXPECT_NE(result.errors.find("'-' is standard output, where this is not written; give it a name"),
+              std::string::npos)
         << result.errors;
   }
 }

@@ -283,6 +283,7 @@ TEST_F(RenderCommand, FinishesCleanlyWhenInterrupted) {
   scene(small_scene("{method: fb_euler}", 200.0));
   const ToolResult result = render({}, 0.1, film("velocity/frame_0003.png"));
   EXPECT_EQ(result.status, 130) << result.errors;
+  EXPECT_TRUE(result.errors.ends_with("\nstopped by SIGINT\n")) << result.errors;
   EXPECT_EQ(record()["status"], "interrupted");
   EXPECT_NE(test::read_text(film("index.html")).find("This run was interrupted by SIGINT at "), std::string::npos);
   EXPECT_GE(whole_images("textured"), 3);
