@@ -119,9 +119,12 @@ struct RowComparison::Differences {
         over(static_cast<std::size_t>(shape.width)),
         worst(static_cast<std::size_t>(shape.width)) {
     result.depth = shape.depth;
+    std::vector<std::string> names;  // of layers
     for (const RowChannel& channel : shape.channels) {
       result.channels.push_back({channel.name});
-      layer.push_back(layer_of(channel.name));
+      const auto known = std::find(names.begin(), names.end(), layer_of(channel.name));
+      layer.push_back(static_cast<int>(known - names.begin()));
+      if (known == names.end()) names.push_back(layer_of(channel.name));
     }
     over_in.resize(shape.width, static_cast<Eigen::Index>(shape.channels.size()));
   }
@@ -213,14 +216,18 @@ struct RowComparison::Differences {
   // Whether a layer that differs has no edge there in one of the images. That of another explains nothing: a colour's
   // texture ends where no velocity does.
   bool is_off_edges(Eigen::Index x) const {
-    for (Eigen::Index c = 0; c < over_in.cols(); ++c)
-      if (over_in(x, c) && (!has_edge(a, x, layer[c]) || !has_edge(b, x, layer[c]))) return true;
+    int looked_at = -1;  // a layer's channels mostly follow one another
+    for (Eigen::Index c = 0; c < over_in.cols(); ++c) {
+      if (!over_in(x, c) || layer[c] == looked_at) continue;
+      looked_at = layer[c];
+      if (!has_edge(a, x, looked_at) || !has_edge(b, x, looked_at)) return true;
+    }
     return false;
   }
 
   // Whether a channel of the layer spans more around a pixel than it does on a surface: where both images have an edge,
   // a silhouette that is a fraction of a pixel aside explains a difference.
-  bool has_edge(const RowWindow& image, Eigen::Index x, const std::string& of) const {
+  bool has_edge(const RowWindow& image, Eigen::Index x, int of) const {
     constexpr double least_edge = 24.0;  // [1/255]
     for (Eigen::Index c = 0; c < over_in.cols(); ++c) {
       if (layer[c] != of) continue;
@@ -261,7 +268,7 @@ struct RowComparison::Differences {
   double of_255;  // what a step of the values is
   RowWindow a, b;
   Eigen::ArrayXXd counted;
-  std::vector<std::string> layer;                              // of each channel
+  std::vector<int> layer;                                      // of each channel, from 0
   std::vector<State> over;                                     // of the pixels of a row
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> over_in;  // (width x channels)
   std::vector<double> worst;                                   // [1/255]
