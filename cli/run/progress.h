@@ -28,7 +28,7 @@ struct EndedPiece {
   std::string status;  // a word
   std::string how;     // "in 2.1 s"
 };
-/// "[3/12] run_7: finished in 2.1 s", or that as an object, as choose_remarks has it.
+/// "[3/12] run 7, rk4: done in 2.1 s", or that as an object, as choose_remarks has it.
 void say_ended(const EndedPiece& piece);
 
 /// A phase of a command, all its pieces together.

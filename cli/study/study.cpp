@@ -62,4 +62,8 @@ bool selects(const PictureSpec& picture, const StudyRun& run) {
   });
 }
 
+bool comes_first(const PictureSpec& picture, const StudyRun& a, const StudyRun& b) {
+  return picture.rows && a.choice[*picture.rows] < b.choice[*picture.rows];
+}
+
 }  // namespace billow::cli

@@ -105,5 +105,7 @@ std::vector<Override> overrides_of(const Study& study, const StudyRun& run);
 std::string label_of(const Study& study, const StudyRun& run);
 /// True when the run is among those that a picture shows.
 bool selects(const PictureSpec& picture, const StudyRun& run);
+/// Whether the picture shows `a` above `b`; runs of which neither comes first stay in their order.
+bool comes_first(const PictureSpec& picture, const StudyRun& a, const StudyRun& b);
 
 }  // namespace billow::cli

@@ -61,10 +61,8 @@ std::vector<const StudyRun*> runs_of_picture(const StudyPlan& plan, const Pictur
   std::vector<const StudyRun*> runs;
   for (const StudyRun& run : plan.runs)
     if (selects(picture, run)) runs.push_back(&run);
-  if (picture.rows)
-    std::stable_sort(runs.begin(), runs.end(), [&](const StudyRun* a, const StudyRun* b) {
-      return a->choice[*picture.rows] < b->choice[*picture.rows];
-    });
+  std::stable_sort(runs.begin(), runs.end(),
+                   [&](const StudyRun* a, const StudyRun* b) { return comes_first(picture, *a, *b); });
   return runs;
 }
 

@@ -257,10 +257,8 @@ render::Sheet frames_sheet(const Study& study, std::vector<ShownFilm> films, con
 render::Sheet sheet_of(const StudyContents& contents, const PictureSpec& picture) {
   std::vector<ShownRun> runs = rendered_runs(contents, picture);
   if (runs.empty()) throw InputError("none of its runs is finished: " + unfinished_runs(shown_runs(contents, picture)));
-  if (picture.rows)
-    std::stable_sort(runs.begin(), runs.end(), [&](const ShownRun& a, const ShownRun& b) {
-      return a.run->choice[*picture.rows] < b.run->choice[*picture.rows];
-    });
+  std::stable_sort(runs.begin(), runs.end(),
+                   [&](const ShownRun& a, const ShownRun& b) { return comes_first(picture, *a.run, *b.run); });
   switch (picture.kind) {
     case PictureKind::strips:
       return strips_sheet(films_of(runs), picture);
